@@ -153,38 +153,16 @@ bool holds_store(const path& folder) {
   return !store::results_files_in(folder).empty() || !scene::list_folder(folder / "cases").empty();
 }
 
-std::optional<std::string> obstacle_in_folder(const path& folder, const study::StudyFile& file,
-                                              const store::Manifest& manifest, bool update) {
-  const auto record = store::record_of_report(folder);
+std::optional<std::string> obstacle_in_folder(const path& folder, const store::Manifest& manifest,
+                                              bool update) {
+  const auto record = store::record_of_folder(folder);
   if (!record) return record.error().message;
-  std::error_code failed;
-  const bool holds_input =
-      std::filesystem::equivalent(folder, std::filesystem::absolute(file.file).parent_path(), failed);
-  if (holds_input && record->manifest.input_sha256.empty() && !holds_store(folder))
-    return fmt::format(
-        "{} is the folder of the study's file, and results are kept apart from input; did you mean -o {}?",
-        folder.string(), shell_quoted((folder / "results").string()));
-  std::vector<std::string> foreign = scene::list_folder(folder);
-  std::erase_if(foreign, [&](const std::string& name) {
-    return !kinds::may_write(kinds::kind_of(file.study), name) ||
-           store::state_of(folder, *record, name) != store::FileState::foreign;
-  });
-  if (!foreign.empty())
-    return fmt::format(
-        "{} holds files that launchsafe did not write ({}), and nothing is overwritten; move them away or "
-        "name another folder",
-        folder.string(), scene::first_of(foreign, 1));
   if (update || record->manifest.input_sha256.empty() || same_study(record->manifest, manifest))
     return std::nullopt;
   return fmt::format(
-      "{} holds the results of a different study or model ({}), and nothing is overwritten; with --update "
-      "the report there moves to {} and stored cases are used where they fit; or name another folder",
-      folder.string(), study::difference_of_inputs(manifest.input_text, record->manifest.input_text),
-      (folder / "earlier-N").string());
-}
-
-void remove_leftovers(const path& folder) {
-  for (const std::string& name : scene::list_folder(folder)) store::remove_leftover(folder / name);
+      "{} holds the results of a different study or model, and nothing is overwritten; with --update the "
+      "report there moves to {} and stored cases are used where they fit; or name another folder",
+      folder.string(), (folder / "earlier-N").string());
 }
 
 }  // namespace launchsafe::app

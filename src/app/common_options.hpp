@@ -129,14 +129,9 @@ bool same_study(const store::Manifest& one, const store::Manifest& other);
 /// Whether the folder holds cases that a study stored.
 bool holds_store(const path& folder);
 
-/// Why the results of a study may not go into the folder: it is that of the study's file and holds no results
-/// yet, those of a different study and `update` is not set, or files of somebody else under names that the
-/// report needs. Nothing is changed.
-std::optional<std::string> obstacle_in_folder(const path& folder, const study::StudyFile& file,
-                                              const store::Manifest& manifest, bool update);
-
-/// Removes what killed processes left of report files that they were writing; while no other process is at
-/// work in the folder.
-void remove_leftovers(const path& folder);
+/// Why the results of a study may not go into the folder: it is not empty and has no manifest of ours, or it
+/// holds those of a different study and `update` is not set. Nothing is changed.
+std::optional<std::string> obstacle_in_folder(const path& folder, const store::Manifest& manifest,
+                                              bool update);
 
 }  // namespace launchsafe::app

@@ -139,7 +139,7 @@ std::string shell_command(const std::vector<std::string>& words);
 /// By command, "run.txt"; "launchsafe.txt" is that of all.
 const std::map<std::string, std::string>& help_texts();
 
-/// A text for people, of such facts as programs have as JSON: "forecast.txt"; also a file: "scene.toml".
+/// A text for people, of such facts as programs have as JSON: "estimate.txt"; also a file: "scene.toml".
 std::string told(const std::string& name, const Json& facts);
 
 /// The record of reports/calibrate_table8.

@@ -10,7 +10,6 @@ struct ExplainArguments {
   path file;  ///< scene or study; with one of the lists that follow the beginning of names, or empty
   bool keys = false, results = false;
   bool lists() const { return keys || results; }
-  std::optional<path> picture;  ///< SVG file for the scene's grid; none: nothing is written
 };
 
 /// What of a scene is computed, on which grid, and at what cost, in SI; particle updates per second > 0.
@@ -27,12 +26,10 @@ Json plausibility_json(const scene::Scene& scene);
 /// What of a launch a load does not cover, for which no verdict stands; empty for none.
 std::string uncovered_text(const scene::Load& load);
 
-/// Totals and a row for each of the runs that were planned, for programs.
-Json forecast_json(const study::StudyFile& file, const study::Forecast& forecast);
-/// Totals, then a row for each of the first mechanical runs. `facts`: those for programs. `folder` holds the
-/// store that the rate was learned from, if any. `begin`: when the study begins, whose end is told then.
-std::string forecast_text(const study::StudyFile& file, const study::Forecast& forecast, Json facts,
-                          const path& folder, std::optional<std::time_t> begin = {});
+/// What a study would run, and at what cost, for programs. Ends the command where the user stops it.
+Json estimate_json(const study::StudyFile& file, const study::StudyOptions& options, Console& console);
+/// The same for people. `facts`: those for programs.
+std::string estimate_text(const study::StudyFile& file, Json facts);
 
 /// Particle updates per second that this program does on this machine with this scene, from the first third
 /// of a second of its run, on a coarser mesh where its own has very many particles. Ends the command where

@@ -1,7 +1,6 @@
 // launchsafe explain: what would be computed, and at what cost.
 #include "common_options.hpp"
 #include "explain.hpp"
-#include "launchsafe/report/case_tables.hpp"
 #include "launchsafe/report/quantities.hpp"
 #include "launchsafe/report/study_text.hpp"
 #include "launchsafe/scene/plan.hpp"
@@ -9,25 +8,6 @@
 
 namespace launchsafe::app {
 namespace {
-
-// --- what a study will run, and at what cost ---
-
-using study::Forecast, study::ForecastRun;
-
-report::Table run_table(const std::vector<ForecastRun>& runs) {
-  using keys::fixed;
-  const report::Quantities<ForecastRun> quantities{
-      {{"mechanical_run", "mechanical run", keys::text(), "The run."}, &ForecastRun::label},
-      {{"cases", "cases", keys::count(), "Cases that share it."}, &ForecastRun::cases},
-      {report::quantity::particles, &ForecastRun::particles},
-      {report::quantity::steps, &ForecastRun::steps},
-      {report::quantity::memory, &ForecastRun::memory},
-      {{"time", "time", fixed(1, keys::second), "Time that it takes, as estimated."}, &ForecastRun::time},
-      {{"shard", "shard", keys::count(), "Shard that runs it."}, &ForecastRun::shard},
-      {{"state", "state", keys::text(), "Whether it is stored, or why it runs."},
-       [](const ForecastRun& run) { return run.stored || run.given_up ? run.why : "to run: " + run.why; }}};
-  return report::table_of({}, quantities, runs);
-}
 
 /// More than fit into a core's own cache, and few enough to be made in a moment.
 constexpr std::int64_t most_particles = 50'000;
@@ -92,20 +72,9 @@ std::vector<std::string> plausibility_lines(const study::StudyFile& study) {
   return lines;
 }
 
-/// Writes the half section and the grid.
-void draw_grid(const path& picture, const scene::Scene& scene, Console& console) {
-  if (picture.extension() != ".svg")
-    console.refuse(fmt::format("--grid: found \"{}\"; allowed: the name of an SVG file, such as grid.svg",
-                               picture.string()));
-  write_where_absent(store::folder_of(picture), {{picture.filename(), report::section_svg(scene)}}, console);
-  console.remark(fmt::format("wrote {}", picture.string()));
-}
-
-ExitCode explain_scene(const ExplainArguments& arguments, Console& console) {
-  const scene::SceneFile file = console.value_of(scene::read_scene(arguments.file));
+ExitCode explain_scene(const path& place, Console& console) {
+  const scene::SceneFile file = console.value_of(scene::read_scene(place));
   const scene::Scene& scene = file.scene;
-  console.remarks(file.notes);
-  if (arguments.picture) draw_grid(*arguments.picture, scene, console);
   const double update_rate = measured_update_rate(scene, console);
   const study::StudyFile alone = study_of(file);
   Json facts = scene_json(scene, update_rate);
@@ -116,81 +85,39 @@ ExitCode explain_scene(const ExplainArguments& arguments, Console& console) {
 
 ExitCode explain_study(const path& place, Console& console) {
   const study::StudyFile file = console.value_of(kinds::read_study(place));
-  console.remarks(file.scene.notes);
-  const Forecast forecast =
-      study::forecast_study(file, {}, measured_update_rate(file.cases.front().scene.scene, console));
-  const Json facts = forecast_json(file, forecast);
-  return console.done(forecast_text(file, forecast, facts, {}), facts);
-}
-
-/// What of these options makes no sense together; empty for nothing.
-std::string contradiction(const ExplainArguments& explain) {
-  if (!explain.lists() && explain.file.empty())
-    return "explain: allowed: a scene or study, or one of --keys and --results";
-  if (explain.picture && explain.lists())
-    return "explain: --grid draws the grid of a scene; allowed: with a scene file";
-  return {};
+  const Json facts = estimate_json(file, {}, console);
+  return console.done(estimate_text(file, facts), facts);
 }
 
 }  // namespace
 
-std::string forecast_text(const study::StudyFile& file, const Forecast& forecast, Json facts,
-                          const path& folder, std::optional<std::time_t> begin) {
-  const scene::Scene& scene = file.scene.scene;
-  // Those of a large study fill no terminal.
-  const auto listed = static_cast<std::ptrdiff_t>(std::min<std::size_t>(20, forecast.runs.size()));
+std::string estimate_text(const study::StudyFile& file, Json facts) {
   facts.update({{"scene", file.study.scene},
-                {"folder", folder.string()},
                 {"judges_gaps", file.study.kind.judges_gaps},
-                {"combustion", scene::time_text(scene.combustion.duration)},
-                {"some_left_out", facts["stored"] != 0 || facts["refused"] != 0},
-                {"list", report::to_text(run_table({forecast.runs.begin(), forecast.runs.begin() + listed}),
-                                         width_of_output())}});
-  if (static_cast<std::size_t>(listed) < forecast.run_count)
-    facts["list"].get_ref<std::string&>() +=
-        fmt::format("and {} more; --json lists {}\n", forecast.run_count - static_cast<std::size_t>(listed),
-                    forecast.runs.size());
-  facts[facts["refused"] != 0 && facts["to_run"] == 0 ? "may_not_run"
-        : facts["stored"] == forecast.run_count       ? "all_stored"
-                                                      : "takes_time"] = true;
-  if (begin && forecast.time > 0)
-    facts["end"] = report::clock_time(*begin + static_cast<std::time_t>(forecast.time), *begin);
+                {"combustion", scene::time_text(file.scene.scene.combustion.duration)}});
   for (const auto& [key, value] : file.overrides)
     facts["overrides"].push_back(fmt::format("{:<19} {}", key, value));
-  return told("forecast.txt", facts) + checks_text(facts["implausible"], study::acceptances_of(file));
+  return told("estimate.txt", facts) + checks_text(facts["implausible"], study::acceptances_of(file));
 }
 
-Json forecast_json(const study::StudyFile& file, const Forecast& forecast) {
-  std::size_t stored = 0, refused = 0, to_run = 0;
-  double updates = 0;  // of particles, in the runs that are left
-  for (const ForecastRun& run : forecast.runs) {
-    ++(run.refused ? refused : run.stored || run.given_up ? stored : to_run);
-    if (!run.stored && !run.given_up)
-      updates += static_cast<double>(run.particles) * static_cast<double>(run.steps);
-  }
-  if (!forecast.runs.empty())
-    updates *= static_cast<double>(forecast.run_count) / static_cast<double>(forecast.runs.size());
+Json estimate_json(const study::StudyFile& file, const study::StudyOptions& options, Console& console) {
+  const double rate = measured_update_rate(file.cases.front().scene.scene, console);
+  const study::Estimate estimate = study::estimate_of(file, options);
   return {{"title", file.study.title},
           {"kind", file.study.kind.name},
           {"kinetics", report::kinetics_json(file.scene)},
-          {"cases", forecast.cases},
-          {"mechanical_runs", forecast.run_count},
-          {"estimated_from_runs", forecast.runs.size()},
-          {"stored", forecast.of_all(stored)},
-          {"to_run", forecast.of_all(to_run)},
-          {"refused", forecast.of_all(refused)},
-          {"coupled_runs_at_most", forecast.confirmations},
+          {"cases", estimate.cases},
+          {"mechanical_runs", estimate.runs},
+          {"stored", estimate.stored},
+          {"to_run", estimate.runs - estimate.stored},
+          {"coupled_runs_at_most", estimate.coupled_runs},
           {"gaps", file.study.gaps.size()},
-          {"jobs", forecast.jobs},
-          {"particle_updates", updates},
-          {"updates_per_second", forecast.update_rate},
-          {"rate_learned_from_runs", forecast.learned_from},
-          {"memory_bytes", forecast.memory},
-          {"disk_bytes", forecast.disk},
-          {"predicted_time_s", forecast.time},
-          {"predicted_time_of_coupled_runs_s", forecast.confirmation_time},
-          {"implausible", plausibility_lines(file)},
-          {"runs", report::json_rows(run_table(forecast.runs))}};
+          {"jobs", estimate.jobs},
+          {"particle_updates", estimate.updates},
+          {"updates_per_second", rate},
+          {"memory_bytes", estimate.memory},
+          {"predicted_time_s", estimate.time(rate)},
+          {"implausible", plausibility_lines(file)}};
 }
 
 double measured_update_rate(const scene::Scene& scene, Console& console) {
@@ -212,21 +139,12 @@ double measured_update_rate(const scene::Scene& scene, Console& console) {
 }
 
 ExitCode perform(const ExplainArguments& arguments, Console& console) {
-  if (const std::string fault = contradiction(arguments); !fault.empty())
-    console.refuse(fault + usage_hint("explain "));
+  if (!arguments.lists() && arguments.file.empty())
+    console.refuse("explain: allowed: a scene or study, or one of --keys and --results" +
+                   usage_hint("explain "));
   if (arguments.lists()) return explain_program(arguments, console);
-  std::error_code unknown;  // a name that is too long, say: reading it tells
-  if (const std::string word = arguments.file.string();
-      !std::filesystem::exists(arguments.file, unknown) &&
-      (scene::has_key(scene::describe_keys(), word) || scene::has_key(kinds::describe_study_keys(), word)))
-    console.refuse(
-        fmt::format("explain: found no file \"{0}\"; of keys tells: launchsafe explain --keys {0}", word));
   if (scene::content_of(arguments.file) != scene::InputContent::study)
-    return explain_scene(arguments, console);
-  if (arguments.picture)
-    console.refuse(
-        fmt::format("--grid: found {}, which is no scene; allowed: a scene, such as that of a study",
-                    arguments.file.string()));
+    return explain_scene(arguments.file, console);
   return explain_study(arguments.file, console);
 }
 
@@ -234,7 +152,6 @@ void add_explain(CLI::App& app, CommandLine& line) {
   auto [command, explain] = add_command<ExplainArguments>(app, line, "explain");
   add(command, "file", explain.file);
   add(command, "--keys", explain.keys)->excludes(add(command, "--results", explain.results));
-  add(command, "--grid", explain.picture);
 }
 
 }  // namespace launchsafe::app

@@ -6,28 +6,6 @@
 namespace launchsafe::app {
 namespace {
 
-report::Table interval_table(const scene::Scene& scene) {
-  using scene::GridInterval, keys::millimetre, keys::significant;
-  const char* of_edge = "Bodies whose edge is there.";
-  const auto list_of = [](const std::vector<std::string>& names) { return scene::first_of(names, 4); };
-  const report::Quantities<GridInterval> quantities{
-      {"along", "along", keys::text(), "Direction.", &GridInterval::along},
-      {"from", "from", significant(7, millimetre), "Where it begins.", &GridInterval::from},
-      {"to", "to", significant(7, millimetre), "Where it ends.", &GridInterval::to},
-      {"cells", "cells", keys::count(), "Cells of the interval.", &GridInterval::cells},
-      {"smallest", "smallest", significant(4, millimetre), "Of its cells.", &GridInterval::shortest},
-      {"largest", "largest", significant(4, millimetre), "Likewise.", &GridInterval::longest},
-      {"edge_before", "edge before, of", keys::text(), of_edge, &GridInterval::edge_before, list_of},
-      {"edge_behind", "edge behind, of", keys::text(), of_edge, &GridInterval::edge_behind, list_of}};
-  const auto [x, r] = scene::grid_intervals(scene);
-  std::vector<GridInterval> rows = x;
-  rows.insert(rows.end(), r.begin(), r.end());
-  std::vector<std::string> notes;
-  if (scene.numerics.formulation == scene::Formulation::updated_lagrangian)
-    notes = {"The grid is even and need not run through edges of bodies."};
-  return report::table_of({}, quantities, rows, notes);
-}
-
 /// A body, or the whole grid, with its cells.
 struct BodyRow {
   std::string name;
@@ -73,19 +51,6 @@ std::string indented(const std::string& text) {
   return result;
 }
 
-Json intervals_json(const std::vector<scene::GridInterval>& intervals) {
-  Json json = Json::array();
-  for (const scene::GridInterval& each : intervals)
-    json.push_back({{"from_m", each.from},
-                    {"to_m", each.to},
-                    {"cells", each.cells},
-                    {"smallest_cell_m", each.shortest},
-                    {"largest_cell_m", each.longest},
-                    {"edge_before_of", each.edge_before},
-                    {"edge_behind_of", each.edge_behind}});
-  return json;
-}
-
 /// What is launched, and by what, for people.
 Json launch_told(const scene::Scene& scene) {
   const scene::Load& load = scene.load;
@@ -97,7 +62,6 @@ Json launch_told(const scene::Scene& scene) {
       fmt::format("measured, {} points{}", load.curve_time.size(), load.rescale_to_peak ? ", rescaled" : "");
   return {{"mass", scene::total_mass(scene)},
           {"masses", masses},
-          {"axisymmetric", scene.symmetry == scene::Symmetry::axisymmetric},
           {"initial_temperature",
            scene::format_quantity(scene.initial_temperature, scene::Dimension::temperature)},
           {"shape", load.curve_time.empty() ? scene::word_of(load.shape) : measured},
@@ -113,18 +77,13 @@ Json launch_told(const scene::Scene& scene) {
 /// The same in SI, and every line of the grid.
 Json grid_json(const scene::Scene& scene) {
   const scene::GridLines lines = scene::lines_at_rest(scene);
-  const scene::GridIntervals intervals = scene::grid_intervals(scene);
   Json bodies = Json::array();
   for (const BodyRow& body : bodies_of(scene))
     bodies.push_back({{"name", body.name},
                       {"cells_in_x", body.cells.nx},
                       {"cells_in_r", body.cells.nr},
                       {"particles", body.particles}});
-  return {{"x_lines_m", lines.x},
-          {"r_lines_m", lines.r},
-          {"x_intervals", intervals_json(intervals.x)},
-          {"r_intervals", intervals_json(intervals.r)},
-          {"bodies", bodies}};
+  return {{"x_lines_m", lines.x}, {"r_lines_m", lines.r}, {"bodies", bodies}};
 }
 
 Json physics_json(const scene::Plan& plan) {
@@ -150,8 +109,6 @@ Json snapshots_json(const scene::Scene& scene) {
           {"bytes", size.bytes()}};
 }
 
-run::Reach reach_here() { return {.memory = study::available_memory(), .keeps_skins = true}; }
-
 }  // namespace
 
 std::string uncovered_text(const scene::Load& load) {
@@ -172,7 +129,6 @@ std::string scene_text(const scene::Scene& scene, Json facts) {
                 {"time_step", scene::time_text(facts["time_step_s"].get<double>())},
                 {"sound", scene::longitudinal_speed(scene)},
                 {"countable", facts["steps"] < scene::most_counted},
-                {"intervals", indented(report::to_text(interval_table(scene)))},
                 {"uncovered", uncovered_text(scene.load)}});
   return told("explain.txt", facts);
 }
@@ -186,8 +142,6 @@ Json load_json(const scene::Scene& scene) {
   if (const auto time = scene::exit_time(load)) {
     const scene::RigidMotion motion = scene::rigid_motion(scene, *time);
     exit = {{"time_s", *time},
-            {"earliest_s", *time - load.muzzle_exit_spread},
-            {"latest_s", *time + load.muzzle_exit_spread},
             {"velocity_m_per_s", motion.velocity},
             {"travel_m", motion.travel},
             {"share_of_peak", scene::share_left(load, *time)}};
@@ -219,7 +173,6 @@ Json plausibility_json(const scene::Scene& scene) {
 
 Json scene_json(const scene::Scene& scene, double update_rate) {
   const scene::Plan plan = scene::make_plan(scene);
-  const auto refusal = run::out_of_reach(scene, reach_here());
   Json interfaces = Json::array();
   for (const scene::InterfaceText& each : scene::describe_interfaces(scene))
     interfaces.push_back({{"body", each.body}, {"condition", each.condition}, {"assumes", each.assumes}});
@@ -240,7 +193,6 @@ Json scene_json(const scene::Scene& scene, double update_rate) {
           {"predicted_time_s", scene::predicted_time(plan, update_rate)},
           {"predicted_time_of_a_coupled_run_s",
            plan.coupling.in ? Json(plan.coupled_work / update_rate) : nullptr},
-          {"refused", refusal ? Json(refusal->message()) : Json()},
           {"implausible", plausibility_json(scene)}};
 }
 

@@ -56,10 +56,10 @@ void check_curve(const scene::PressureCurve& curve, const std::string& file, Con
   const double rise =
       curve.time[static_cast<std::size_t>(peak - curve.pressure.begin())] - curve.time.front();
   if (*peak >= lowest_peak && *peak <= highest_peak && rise >= shortest_rise) return;
-  scene::InputError error{.file = file, .key = "pressure"};
-  error.found = fmt::format("a peak of {} after {:.3g} ms", scene::pressure_text(*peak), 1e3 * rise);
-  error.allowed = "a peak of 10 MPa to 1 GPa that takes 0.1 ms or more to rise";
-  console.refuse(error);
+  const std::string found =
+      fmt::format("a peak of {} after {:.3g} ms", scene::pressure_text(*peak), 1e3 * rise);
+  console.refuse(scene::InputError{
+      file, 0, 0, "pressure", found, "a peak of 10 MPa to 1 GPa that takes 0.1 ms or more to rise", {}});
 }
 
 /// Refuses what makes no scene, before anything is written.

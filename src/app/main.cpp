@@ -20,24 +20,16 @@ constexpr const char* description =
     "launchsafe: how thick may the gap under an explosive charge be before a launch can ignite it?\n"
     "Simulates shells under launch loads by the material point method.";
 
-/// Version, commit, compiler, flags and libraries.
+/// Version, commit, compiler and flags.
 ExitCode print_version(Console& console) {
-  std::string text;
-  Json libraries = Json::object();
-  for (const store::LibraryVersion& library : store::library_versions()) {
-    text += fmt::format("{}{} {}", text.empty() ? "" : ", ", library.name, library.version);
-    libraries[library.name] = library.version;
-  }
   return console.done(
-      fmt::format("launchsafe {}\ncommit    {}\ncompiler  {}\nflags     {} ({})\nlibraries {}\n",
-                  version::number, version::commit, version::compiler, version::flags, version::build_type,
-                  text),
+      fmt::format("launchsafe {}\ncommit    {}\ncompiler  {}\nflags     {} ({})\n", version::number,
+                  version::commit, version::compiler, version::flags, version::build_type),
       {{"version", version::number},
        {"commit", version::commit},
        {"compiler", version::compiler},
        {"flags", version::flags},
-       {"build_type", version::build_type},
-       {"libraries", libraries}});
+       {"build_type", version::build_type}});
 }
 
 std::function<ExitCode(Console&)> print(const std::string& help) {
@@ -81,9 +73,7 @@ std::string fault_of_word(const std::string& given, const CLI::App& command, con
     known.clear();
     allowed = "no more arguments";
   }
-  if (word == "--set")
-    elsewhere = "; a study's file sets values: set = { load.peak = \"500 MPa\" } above its first [table]";
-  else if (!others.empty())
+  if (!others.empty())
     elsewhere = fmt::format("; {} is an option of {}", word, fmt::join(others, ", "));
   std::string nearest = word == "help" ? "--help" : scene::nearest_of(word, known);
   if (name.empty() && word.ends_with(".toml")) nearest = "launchsafe study " + word;
@@ -101,7 +91,7 @@ std::string missing_word_of(const CLI::App& command, const CLI::ParseError& erro
 void add_commands(CLI::App& app, CommandLine& line) {
   app.require_subcommand(1);
   app.footer(footer_of("launchsafe"));
-  app.set_version_flag("--version", "", "Version, commit, compiler, flags and libraries");
+  app.set_version_flag("--version", "", "Version, commit, compiler and flags");
   for (AddCommand* add : {add_run, add_study, add_status, add_merge, add_explain, add_plot, add_init,
                           add_import_curve, add_report})
     add(app, line);

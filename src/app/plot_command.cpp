@@ -12,7 +12,6 @@ struct PlotArguments {
   std::optional<path> output;        ///< folder; none: CASE_pictures beside the file
   std::optional<std::string> what;   ///< words of kinds of pictures; none: all with data
   std::optional<std::string> times;  ///< with units, of fields and profiles
-  std::optional<path> references;    ///< file of published rows, of histories and profiles
   bool tables = false;               ///< CSV files of numbers instead
 };
 
@@ -141,7 +140,6 @@ ExitCode perform(const PlotArguments& arguments, Console& console) {
   const auto file = store::read_case_with_scene(arguments.file);
   if (!file) console.refuse(fmt::format("{}; allowed: {}", file.error().message, allowed));
   report::DrawnCase drawn{file->scene, file->stored.result};
-  if (arguments.references) drawn.published = console.value_of(kinds::read_references(*arguments.references));
   const bool tables = arguments.tables;
   std::set<std::string> named;
   if (arguments.what) named = named_kinds(*arguments.what, console);
@@ -170,7 +168,6 @@ void add_plot(CLI::App& app, CommandLine& line) {
   add(command, "-o,--output", plot.output);
   add(command, "--what", plot.what)->type_name(fmt::format("{}", fmt::join(words_of_kinds(), "|")));
   add(command, "--times", plot.times);
-  add(command, "--references", plot.references);
   add(command, "--csv", plot.tables);
 }
 

@@ -51,8 +51,8 @@ ExitCode perform(const ReportArguments& arguments, Console& console) {
   const report::RenderedReport rendered = report::make_safety_report(evidence, {.stop = &stop_requested()});
   if (stop_requested()) console.fail("interrupted while drawing; nothing was written", ExitCode::interrupted);
   console.refuse_any(prepare_output_folder(arguments.output));
-  console.remarks(
-      console.stored(store::write_report_files(arguments.output, record_of(evidence), rendered.files)));
+  if (const auto error = store::write_report_files(arguments.output, record_of(evidence), rendered.files))
+    console.end_with(*error);
   console.remarks(rendered.remarks);
   if (const std::string fault = arguments.pdf ? print_page(arguments.output) : ""; !fault.empty())
     console.remark(fault);

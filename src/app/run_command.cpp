@@ -11,15 +11,8 @@ namespace {
 
 struct RunArguments {
   path scene;
-  std::optional<path> output;         ///< folder of the case file; none: nothing is written
-  std::optional<double> longest_run;  ///< s, predicted; a longer one is refused
+  std::optional<path> output;  ///< folder of the case file; none: nothing is written
 };
-
-report::Table air_table(const run::CaseResult& result) {
-  std::vector<report::AuditedGap> gaps;
-  for (const run::GapResult& gap : result.gaps) gaps.push_back({"", gap.gap, gap.air});
-  return report::air_energy_table(gaps);
-}
 
 /// One gap of a run, with the names of places.
 struct GapRow {
@@ -131,10 +124,8 @@ Json case_json(const scene::Scene& scene, const run::CaseResult& result) {
               {"validity_warnings", warnings_of(scene, result)},
               {"gaps", Json::array()}};
   for (const GapRow& row : rows_of(result)) object["gaps"].push_back(gap_json(row));
-  object["combustion"] = report::json_rows(report::combustion_table(scene, result));
-  object["air_energy"] = report::json_rows(air_table(result));
+  object["combustion"] = report::json_rows(report::combustion_table(result));
   if (!mechanics.monitor.empty()) object["energy"] = energy_json(mechanics.monitor.back().energy);
-  object["interfaces"] = report::json_rows(report::interface_table(mechanics));
   for (const run::Limiter& each : run::limiters)
     object["limiters"][each.name] = mechanics.limiters.*each.member;
   for (const run::MaterialMass& each : mechanics.masses) object["mass"][each.material + "_kg"] = each.mass;
@@ -146,12 +137,10 @@ Json case_json(const scene::Scene& scene, const run::CaseResult& result) {
   return object;
 }
 
-/// The gaps, what burnt in them, and the faces that slide.
+/// The gaps, and what burnt in them.
 std::vector<report::Table> tables_of(const scene::Scene& scene, const run::CaseResult& result) {
   std::vector<report::Table> tables;
-  if (!result.gaps.empty())
-    tables = {gap_table(scene, result), air_table(result), report::combustion_table(scene, result)};
-  tables.push_back(report::interface_table(result.mechanics));
+  if (!result.gaps.empty()) tables = {gap_table(scene, result), report::combustion_table(result)};
   std::erase_if(tables, [](const report::Table& table) { return table.rows.empty(); });
   return tables;
 }
@@ -169,8 +158,7 @@ std::string case_text(const scene::Scene& scene, const run::CaseResult& result, 
                 {"completed", mechanics.status == run::RunStatus::completed},
                 {"limited", mechanics.limiters.acted()},
                 {"simulated", scene::time_text(mechanics.end_time)},
-                {"masses", masses},
-                {"axisymmetric", scene.symmetry == scene::Symmetry::axisymmetric}});
+                {"masses", masses}});
   for (const report::Table& table : tables_of(scene, result))
     facts["tables"].push_back(report::to_text(table, width_of_output()));
   if (mechanics.monitor.empty()) return told("run.txt", facts);
@@ -190,7 +178,6 @@ run::CaseResult run_with_progress(const scene::Scene& scene, const Console& cons
   const auto start = std::chrono::steady_clock::now();
   run::RunOptions options;
   options.stop = &stop_requested();
-  options.threads = study::threads_for_one_run(scene::particle_count(scene));
   const double end = scene::end_time(scene.load);
   options.progress = [&, end](double share) {
     constexpr double too_early = 0.005;  // to say what is left
@@ -221,11 +208,7 @@ run::CaseResult run_with_progress(const scene::Scene& scene, const Console& cons
 
 ExitCode perform(const RunArguments& arguments, Console& console) {
   const scene::SceneFile file = console.value_of(scene::read_scene(arguments.scene));
-  console.remarks(file.notes);
   const scene::Scene& scene = file.scene;
-  run::Reach reach{.memory = study::available_memory(), .keeps_skins = true};
-  if (arguments.longest_run) reach.longest_run = *arguments.longest_run;
-  console.refuse_any(run::out_of_reach(file, reach));
   store::Manifest manifest = store::make_manifest(scene::to_toml(scene), 1);
   path target;
   if (arguments.output) {
@@ -233,8 +216,7 @@ ExitCode perform(const RunArguments& arguments, Console& console) {
     std::ranges::replace(name, ':', '_');  // XDMF ends the name of a file at its first colon
     target = *arguments.output / (name + ".h5");
     // Found out before anything is computed.
-    console.refuse_any(store::obstacle_to_case_file(target, manifest));
-    if (scene.output.asks_for_snapshots()) console.refuse_any(store::obstacle_to_sidecar(target));
+    console.refuse_any(store::obstacle_to_case_file(target, manifest, scene.output.asks_for_snapshots()));
     console.refuse_any(prepare_output_folder(*arguments.output));
   }
   const run::CaseResult result = run_with_progress(scene, console);
@@ -245,15 +227,9 @@ ExitCode perform(const RunArguments& arguments, Console& console) {
     if (const auto error = store::write_case_file(target, scene, result, manifest)) console.end_with(*error);
     console.remark(fmt::format("wrote {}", target.string()));
   }
-  std::vector<std::string> missing;
-  for (const scene::Event event : run::events_without_snapshot(scene, result))
-    missing.push_back(scene::word_of(event));
-  if (!missing.empty())
-    console.remark(fmt::format("no snapshot of {}: it did not happen", fmt::join(missing, ", ")));
   Json object = case_json(scene, result);
   object["kinetics"] = report::kinetics_json(file);
   console.print_text(case_text(scene, result, object));
-  object["events_without_snapshot"] = missing;
   object["implausible"] = plausibility_json(scene);
   object["input_sha256"] = manifest.input_sha256;
   object["file"] = target.empty() ? Json(nullptr) : Json(target.string());
@@ -275,7 +251,6 @@ void add_run(CLI::App& app, CommandLine& line) {
   auto [command, run] = add_command<RunArguments>(app, line, "run");
   add_required(command, "scene", run.scene);
   add(command, "-o,--output", run.output);
-  add_amount(command, "--longest-run", run.longest_run, parse_positive<Dimension::duration>);
 }
 
 }  // namespace launchsafe::app

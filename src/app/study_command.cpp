@@ -9,29 +9,28 @@ namespace {
 
 /// What a user asks of a study, or of the merge of its shards.
 struct StudyArguments {
-  path study;                         ///< file
-  path output;                        ///< folder of cases, tables and report; may be empty for a dry run
-  int jobs = 0;                       ///< threads; 0: as many as there are processors for us
-  std::optional<double> memory;       ///< bytes of all running cases together
-  std::optional<double> time_limit;   ///< s of wall time, of one case
-  std::optional<double> longest_run;  ///< s, predicted, of one case; a longer one is refused
-  study::Shard shard;                 ///< the part that is ours
-  std::optional<double> tolerance;    ///< K, of T max; picks a setting from the study's accuracy record
-  std::optional<std::time_t> until;   ///< when it stops, with what it has
-  bool dry_run = false;               ///< say what would be run, and run nothing
-  bool update = false;                ///< the folder may hold the results of an earlier study
-  std::string command;                ///< the whole command, to be repeated in a shell
+  path study;                        ///< file
+  path output;                       ///< folder of cases, tables and report; may be empty for a dry run
+  int jobs = 0;                      ///< threads; 0: as many as there are processors for us
+  std::optional<double> memory;      ///< bytes of all running cases together
+  std::optional<double> time_limit;  ///< s of wall time, of one case
+  study::Shard shard;                ///< the part that is ours
+  std::optional<double> tolerance;   ///< K, of T max; picks a setting from the study's accuracy record
+  std::optional<std::time_t> until;  ///< when it stops, with what it has
+  bool dry_run = false;              ///< say what would be run, and run nothing
+  bool update = false;               ///< the folder may hold the results of an earlier study
+  std::string command;               ///< the whole command, to be repeated in a shell
 };
 
 // --- what both share ---
 
-/// Whether the report in the folder says what a new one would. A study's results follow from its input, but
-/// for what failed.
+/// Whether the report in the folder says what a new one would.
 bool report_stands(const path& folder, const StudyRecord& record, const StudyRecord& anew) {
-  return !record.files.empty() && record.complete && same_study(record.manifest, anew.manifest) &&
+  const auto is_there = [&](const std::string& name) { return std::filesystem::exists(folder / name); };
+  return !record.files.empty() && std::ranges::all_of(record.files, is_there) && record.complete &&
+         same_study(record.manifest, anew.manifest) &&
          store::program_of(record.manifest) == store::program_of(anew.manifest) &&
-         record.programs == anew.programs && record.failures == anew.failures &&
-         store::read_as_written(folder, record.files);
+         record.programs == anew.programs;
 }
 
 /// The programs that made what a store holds of this model version.
@@ -52,15 +51,16 @@ class StudySession {
     // Never an absolute path: it would name this machine.
     record_.study = asked.study.is_absolute() ? asked.study.filename() : asked.study;
     const auto refuse_obstacle = [&] {
-      console.refuse_any(obstacle_in_folder(asked.output, file, record_.manifest, asked.update));
+      console.refuse_any(obstacle_in_folder(asked.output, record_.manifest, asked.update));
     };
     refuse_obstacle();
     console.refuse_any(prepare_output_folder(asked.output));
+    mark_folder();
     const auto stop = [](const store::Error&) { stop_requested() = true; };
     store_ = console.stored(store::CaseStore::open(asked.output, asked.shard.part(), stop));
     print_remarks();
     refuse_obstacle();  // until the store was ours somebody else may have been at work here
-    if (asked.shard.whole()) remove_leftovers(asked.output);
+    if (asked.shard.whole()) store::remove_leftovers(asked.output);
     take_folder();
   }
 
@@ -107,17 +107,22 @@ class StudySession {
 
  private:
   // These end the command where something fails, or where it was interrupted.
-  /// Makes the folder that of the study, once its store is ours alone: moves the report of an earlier study
-  /// to `earlier-N` and writes manifest.json, unless it is there.
+  /// Gives a new folder the manifest by which it is known as ours; another shard may be as far.
+  void mark_folder() {
+    const auto error = store::write_study_record(asked_.output, record_, false);
+    if (error && error->kind != store::Error::Kind::conflict) console_.end_with(*error);
+  }
+
+  /// Makes the folder that of the study, once its store is ours alone: the report of an earlier study moves
+  /// to `earlier-N`.
   void take_folder() {
-    const StudyRecord record = console_.stored(store::record_of_report(asked_.output));
+    const StudyRecord record = console_.stored(store::record_of_folder(asked_.output));
     if (same_study(record.manifest, record_.manifest)) return;
-    // The manifest last: what a kill leaves here is still known.
-    std::vector<std::string> names = record.names();
-    if (!names.empty()) names.emplace_back(store::manifest_name);
-    const path moved = console_.stored(store::set_aside(asked_.output, names));
-    if (const auto error = store::write_study_record(asked_.output, record_)) console_.end_with(*error);
-    if (!moved.empty()) console_.remark(fmt::format("the earlier report moved to {}", moved.string()));
+    if (!record.files.empty()) {
+      const path moved = console_.stored(store::set_aside(asked_.output, record));
+      console_.remark(fmt::format("the earlier report moved to {}", moved.string()));
+    }
+    if (const auto error = store::write_study_record(asked_.output, record_, true)) console_.end_with(*error);
   }
 
   /// Sees to it that all that was to be kept is on disk.
@@ -170,12 +175,10 @@ class StudySession {
   }
 
   void write_files(const kinds::StudyOutcome& result) {
-    std::string failures;
-    for (const auto& [label, reason, outcome] : result.failures) failures += label + "\n" + reason + "\n";
     StudyRecord written = record_;
-    written.failures = store::sha256(failures);
     const auto present = store::read_study_record(asked_.output);
-    if (result.timing.runs == 0 && present && report_stands(asked_.output, *present, written))
+    if (result.timing.runs == 0 && result.failures.empty() && present &&
+        report_stands(asked_.output, *present, written))
       return console_.remark(fmt::format("the report in {} stands as it is", asked_.output.string()));
     store_->replace_tables(report::plain_tables(result.report));
     keep();
@@ -183,10 +186,11 @@ class StudySession {
     console_.remarks(rendered.remarks);
     written.manifest.wall_time = result.timing.wall_time;
     // A report that lacks a picture is no finished one: the next time it is written again.
-    written.complete = rendered.pictures_missing == 0;
-    console_.remarks(console_.stored(store::write_report_files(asked_.output, written, rendered.files)));
+    written.complete = rendered.pictures_missing == 0 && result.failures.empty();
+    if (const auto error = store::write_report_files(asked_.output, written, rendered.files))
+      console_.end_with(*error);
     console_.remark(fmt::format("wrote {} files to {}", rendered.files.size() + 1, asked_.output.string()));
-    if (!written.complete && stop_requested())
+    if (rendered.pictures_missing != 0 && stop_requested())
       console_.fail(
           fmt::format("interrupted while a picture was drawn; all results are kept; for the picture: {}",
                       asked_.command),
@@ -209,20 +213,10 @@ study::StudyOptions options_of(const StudyArguments& arguments, int jobs, store:
   options.jobs = jobs;
   options.memory_limit = arguments.memory.value_or(options.memory_limit);
   options.time_limit = arguments.time_limit.value_or(options.time_limit);
-  options.longest_run = arguments.longest_run.value_or(options.longest_run);
   options.shard = arguments.shard;
   options.stop = &stop_requested();
   options.store = store;
   return options;
-}
-
-/// Where not one case may run, unless an earlier study left results here.
-std::optional<scene::InputError> refusal_of(const study::StudyFile& file, const StudyArguments& arguments,
-                                            const study::StudyOptions& options) {
-  if (holds_store(arguments.output)) return std::nullopt;
-  run::Reach reach{.longest_run = options.longest_run};
-  if (!arguments.memory) reach.memory = study::available_memory();
-  return study::all_out_of_reach(file, reach);
 }
 
 /// What the study would run, and at what cost; nothing is written.
@@ -231,34 +225,23 @@ ExitCode dry_run(const study::StudyFile& file, const StudyArguments& arguments, 
   std::unique_ptr<store::CaseStore> store;
   if (!folder.empty()) {
     // Where the study itself would refuse the folder.
-    if (const auto obstacle = obstacle_in_folder(folder, file, study_manifest(file, 1), arguments.update))
+    if (const auto obstacle = obstacle_in_folder(folder, study_manifest(file, 1), arguments.update))
       console.remark(*obstacle);
     if (holds_store(folder)) store = console.stored(store::CaseStore::open_to_read(folder));
   }
-  // Runs of the past tell how fast this machine is.
-  const auto tells_rate = [](const store::RunRecord& entry) {
-    return entry.state == store::CaseState::done && entry.wall_time > 0 && entry.predicted_updates > 0;
-  };
-  const double update_rate = store && std::ranges::any_of(store->records(), tells_rate)
-                                 ? 0.0
-                                 : measured_update_rate(file.cases.front().scene.scene, console);
-  const study::Forecast forecast =
-      study::forecast_study(file, options_of(arguments, arguments.jobs, store.get()), update_rate);
+  const Json facts = estimate_json(file, options_of(arguments, arguments.jobs, store.get()), console);
   if (store) console.remarks(store->remarks());
-  const Json facts = forecast_json(file, forecast);
-  return console.done(forecast_text(file, forecast, facts, folder, std::time(nullptr)), facts);
+  return console.done(estimate_text(file, facts), facts);
 }
 
 ExitCode perform(const StudyArguments& arguments, Console& console) {
   const study::StudyFile file = console.value_of(kinds::read_study(arguments.study, {arguments.tolerance}));
   if (arguments.output.empty() && !arguments.dry_run)
     console.refuse("--output is required unless with --dry-run" + usage_hint("study "));
-  console.remarks(file.scene.notes);
   if (!file.chosen_setting.empty()) console.remark("setting: " + file.chosen_setting);
   if (arguments.dry_run) return dry_run(file, arguments, console);
   const int jobs = arguments.jobs > 0 ? arguments.jobs : study::available_cores();
   const study::StudyOptions options = options_of(arguments, jobs, nullptr);
-  console.refuse_any(refusal_of(file, arguments, options));
   StudySession session(arguments, file, jobs, console);
   return session.conclude(session.run(options));
 }
@@ -280,16 +263,7 @@ void import_folders(const std::vector<path>& folders, StudySession& session, Con
   }
 }
 
-/// The mechanical runs that no shard has stored.
-Json missing_runs(const study::Forecast& forecast) {
-  Json missing;
-  for (const study::ForecastRun& run : forecast.runs)
-    if (!run.stored && !run.given_up) missing.push_back({{"mechanical_run", run.label}, {"why", run.why}});
-  return missing;
-}
-
-/// The runs that only turned out to be missing when they were asked for: coupled runs, whose gaps follow from
-/// the mechanics, and files that were damaged after they had been looked at.
+/// The runs that no shard has stored.
 Json missing_runs(const kinds::StudyOutcome& result) {
   Json missing;
   for (const kinds::Failure& failure : result.failures)
@@ -297,15 +271,11 @@ Json missing_runs(const kinds::StudyOutcome& result) {
   return missing;
 }
 
-/// Names what is missing; `what`: how many of which runs.
-ExitCode refuse_without(const Json& missing, const std::string& what, Console& console) {
-  for (const auto& run : missing) {
-    std::string line = "missing";
-    for (const auto& part : run) line += ": " + part.get<std::string>();
-    console.print_text(line + "\n");
-  }
+/// Names what is missing.
+ExitCode refuse_without(const Json& missing, Console& console) {
+  for (const auto& run : missing) console.print_text("missing: " + run["run"].get<std::string>() + "\n");
   console.print_json({{"missing", missing}});
-  console.error(what + " are missing; there is no report");
+  console.error(fmt::format("{} results are missing; there is no report", missing.size()));
   return ExitCode::cases_failed;
 }
 
@@ -318,14 +288,9 @@ ExitCode perform(const MergeArguments& arguments, Console& console) {
   StudySession session(arguments, file, options.jobs, console);
   import_folders(arguments.folders, session, console);
   options.store = &session.store();
-  constexpr double any_rate = 1.0;
-  const study::Forecast forecast = study::forecast_study(file, options, any_rate, study::largest_case_count);
-  if (const auto missing = missing_runs(forecast); !missing.empty())
-    return refuse_without(
-        missing, fmt::format("{} of {} mechanical runs", missing.size(), forecast.runs.size()), console);
   const kinds::StudyOutcome result = session.run(options);
   if (const auto missing = missing_runs(result); !missing.empty())
-    return session.end(refuse_without(missing, fmt::format("{} runs", missing.size()), console));
+    return session.end(refuse_without(missing, console));
   return session.conclude(result);
 }
 
@@ -338,7 +303,6 @@ void add_study(CLI::App& app, CommandLine& line) {
   add_jobs(command, study.jobs);
   add_amount(command, "--memory", study.memory, parse_positive<Dimension::memory>);
   add_amount(command, "--time-limit", study.time_limit, parse_positive<Dimension::duration>);
-  add_amount(command, "--longest-run", study.longest_run, parse_positive<Dimension::duration>);
   add_amount(command, "--until", study.until,
              [](const std::string& text) { return report::next_clock_time(text, std::time(nullptr)); });
   add_read(command, "--shard",

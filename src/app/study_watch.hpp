@@ -77,8 +77,7 @@ class StudyWatch {
     lock.unlock();
     if (now.seconds_left >= 0) now.seconds_left = std::max(0.0, now.seconds_left - since);
     if (now.total > 0 && now.done == now.total) now.phase = study::Phase::report;
-    line_->show(
-        report::progress_line(now, std::time(nullptr), terminal_width(STDERR_FILENO).value_or(80) - 1));
+    line_->show(report::progress_line(now, std::time(nullptr)));
     store_.tell_progress(members(now));
   }
 

@@ -9,39 +9,6 @@ using study::RecordedSetting, study::ReferenceValue;
 
 namespace {
 
-/// What the values of a list, of which every mesh has one, tend to on the meshes, finest first.
-template <class List>
-std::vector<ReferenceValue> over_meshes(std::span<const AccuracyRow> meshes, List list) {
-  const auto sizes = of_each(meshes, [](const AccuracyRow& mesh) { return mesh.setting.cell; });
-  std::vector<ReferenceValue> references;
-  for (std::size_t i = 0; i < std::invoke(list, meshes.front()).size(); ++i)
-    references.push_back(study::reference_value(
-        of_each(meshes, [&](const AccuracyRow& mesh) { return std::invoke(list, mesh)[i]; }), sizes));
-  return references;
-}
-
-/// s, for every gap; NaN where it does not ignite.
-std::vector<double> ignition_times(const AccuracyRow& row) {
-  return of_each(row.answer.verdicts,
-                 [](const GapVerdict& gap) { return gap.ignition ? gap.ignition->time : not_a_number; });
-}
-
-AccuracyReference reference_of(std::span<const AccuracyRow> meshes, const study::AccuracyRecord& record,
-                               std::vector<bool> inert) {
-  AccuracyReference reference;
-  static_cast<study::RecordedReference&>(reference) = study::reference_of(record);
-  reference.inert = std::move(inert);
-  reference.ignition_time = over_meshes(meshes, ignition_times);
-  reference.peak_pressure =
-      over_meshes(meshes, [](const AccuracyRow& mesh) { return std::vector{mesh.peak_pressure}; }).front();
-  reference.at_times = over_meshes(meshes, &AccuracyRow::at_times);
-  reference.points = over_meshes(meshes, [](const AccuracyRow& mesh) {
-    return of_each(mesh.points, &study::StationTemperature::temperature);
-  });
-  reference.bottom = meshes.front().bottom;
-  return reference;
-}
-
 std::vector<double> errors_against(const std::vector<ReferenceValue>& references,
                                    const std::vector<double>& values) {
   std::vector<double> errors;
@@ -56,20 +23,6 @@ void find_errors(const AccuracyReference& reference, AccuracyRow& row) {
   for (const double error : row.temperature_error)
     row.largest_temperature_error = study::larger_bound(row.largest_temperature_error, std::abs(error));
   row.critical_gap_error = error_against(reference.critical_gap, row.setting.critical_gap);
-  row.ignition_time_error = errors_against(reference.ignition_time, ignition_times(row));
-  row.pressure_error = relative_difference(row.bottom, reference.bottom);
-  row.peak_pressure_error = error_against(reference.peak_pressure, row.peak_pressure) /
-                            std::abs(reference.peak_pressure.limit.value);
-  row.error_at_times = errors_against(reference.at_times, row.at_times);
-}
-
-/// What the skin of the first gap was in detail, without reaction, since after ignition all are alike.
-void add_first_gap(const Study& study, const Scene& scene, const BottomTrace& trace, AccuracyRow& row) {
-  const auto skin =
-      surface::integrate_skin(study::without_reaction(surface::skin_model(scene)), trace, study.gaps.front());
-  for (const double time : settings_of<AccuracySettings>(study).times)
-    row.at_times.push_back(surface::maximum_at_time(skin, trace, time).temperature);
-  row.points = study::station_temperatures(skin, trace);
 }
 
 /// What a run came to and what it cost, without comparing it.
@@ -84,17 +37,11 @@ AccuracyRow measure(const Study& study, const StudyCase& input, const std::vecto
   const scene::CellRange mesh = scene::cells_of_charge(scene);
   row.setting.cell = std::sqrt(mesh.shortest_x * mesh.shortest_r);
   row.setting.processor_time = mechanics.work_time();
-  row.wall_time = mechanics.wall_time;
-  row.particle_steps = static_cast<double>(mechanics.particles) * static_cast<double>(mechanics.steps);
-  row.memory = run::cost_of(scene).memory();
   if (!row.computed()) return row;
   for (const FinishedRun& run : runs)
     if (row.validity_warnings.empty())
       row.validity_warnings =
           fmt::format("{}", fmt::join(run::validity_warnings(scene, run.result.mechanics), "; "));
-  add_first_gap(study, scene, mechanics.trace, row);
-  row.bottom = {mechanics.trace.time, mechanics.trace.bottom_pressure};
-  row.peak_pressure = *std::ranges::max_element(row.bottom.pressure);
   return row;
 }
 
@@ -196,43 +143,15 @@ void compare(VariantAccuracy& variant) {
     return;
   }
   variant.record = record_of(variant);
-  variant.reference = reference_of(finest_first, variant.record, inert);
+  variant.reference = AccuracyReference{study::reference_of(variant.record), inert};
   for (AccuracyRow& row : variant.rows) {
     if (!row.computed()) continue;
     find_bounds(*variant.reference, row.setting);
     find_errors(*variant.reference, row);
   }
-  mark_front(variant.rows);
 }
 
 }  // namespace
-
-double relative_difference(const PressureTrace& p, const PressureTrace& q) {
-  if (p.time.size() < 2 || q.time.size() < 2) return not_a_number;
-  const double end = std::min(p.time.back(), q.time.back());
-  double difference = 0.0, whole = 0.0;
-  for (std::size_t i = 1; i < q.time.size() && q.time[i] <= end * (1.0 + 1e-12); ++i) {
-    // The trapezoidal rule over the samples of q.
-    for (const std::size_t k : {i - 1, i}) {
-      const double half = 0.5 * (q.time[i] - q.time[i - 1]);
-      const double off = trace::interpolate(p.time, p.pressure, q.time[k]) - q.pressure[k];
-      difference += half * off * off;
-      whole += half * q.pressure[k] * q.pressure[k];
-    }
-  }
-  return std::sqrt(difference / whole);
-}
-
-void mark_front(std::vector<AccuracyRow>& rows) {
-  const auto counts = [](const AccuracyRow& row) {
-    return row.sound() && !row.other_model && std::isfinite(row.error_to_go_by());
-  };
-  for (AccuracyRow& row : rows)
-    row.on_front = counts(row) && std::ranges::none_of(rows, [&](const AccuracyRow& other) {
-                     return counts(other) && other.setting.processor_time < row.setting.processor_time &&
-                            other.error_to_go_by() <= row.error_to_go_by();
-                   });
-}
 
 bool VariantAccuracy::any_indeterminate() const {
   return !reference || std::ranges::any_of(reference->temperature, [](const ReferenceValue& value) {

@@ -17,7 +17,7 @@ void read_axis(const Leaf& leaf, std::size_t block, StudyFile& study) {
   study.places[key] = place;
   if (leaf.name == "gap.thickness")
     refuse_at(study, key, leaf.name + " as a setting",
-              "numerics keys, frame, friction.closure, ...; the gaps are the study's");
+              "numerics keys, friction.closure, ...; the gaps are the study's");
   const KeyDescription description = taken(scene::describe_key(study.scene, leaf.name, place), "settings");
   SettingsAxis& axis = own(study).settings[block].emplace_back();
   for (const Value& value : taken(scene::read_values(*leaf.node, description, study.file), "settings"))
@@ -206,8 +206,6 @@ const std::vector<Key<AccuracySettings>> accuracy_keys{
              "Cell sizes of at least three grids, each fitting the charge, that the reference is "
              "extrapolated from.",
              &AccuracySettings::reference_cell_sizes),
-    list_key("times", Dimension::time, between(0, 1), Standing::assumed,
-             "Instants at which temperatures are compared too.", &AccuracySettings::times),
 };
 
 std::vector<Failure> accuracy_failures(const AccuracyResult& result) {
@@ -228,7 +226,6 @@ Kind accuracy_kind() {
       .tables = {{"settings", {}}, {variant_key, {}}},
       .make_cases = make_accuracy_cases,
       .run = outcome_of<run_accuracy, accuracy_failures>,
-      .files = {"accuracy.json", "accuracy_*.json", "error_against_time.svg"},
       .results = accuracy_results,
   };
 }

@@ -9,9 +9,6 @@ using study::RecordedSetting, study::ReferenceValue;
 namespace {
 
 const std::vector<double>& gaps_of(const VariantAccuracy& variant) { return variant.study.study.gaps; }
-const std::vector<double>& times_of(const VariantAccuracy& variant) {
-  return settings_of<AccuracySettings>(variant.study).times;
-}
 const std::vector<double>& cell_sizes_of(const VariantAccuracy& variant) {
   return settings_of<AccuracySettings>(variant.study).reference_cell_sizes;
 }
@@ -106,14 +103,13 @@ std::string remark_of(const AccuracyRow& row) {
   if (!row.validity_warnings.empty()) add("validity warning: " + row.validity_warnings);
   if (row.baseline) add("the scene as it is");
   if (row.setting.reference) add("reference mesh");
-  if (row.on_front) add("Pareto front");
   if (row.other_model) add("another model: a difference, no numerical error");
   return text;
 }
 
 using SettingRow = PartOf<VariantAccuracy, const AccuracyRow*>;
 
-/// One of a list, of which there is one for every gap, or time, of the variant.
+/// One of a list, of which there is one for every gap of the variant.
 template <class Keys>
 auto of_list(std::vector<double> AccuracyRow::*list, Keys keys, double key) {
   return [=](const SettingRow& row) { return value_at(row.part->*list, keys(*row.whole), key); };
@@ -136,46 +132,24 @@ Quantities<SettingRow> by_gap(const std::vector<double>& gaps, const std::string
   return quantities;
 }
 
-/// Of settings that are compared at gaps, of which some may ignite, and at instants.
-Quantities<SettingRow> setting_quantities(const std::vector<double>& gaps,
-                                          const std::vector<double>& igniting_gaps,
-                                          const std::vector<double>& times) {
+Quantities<SettingRow> setting_quantities(const std::vector<double>& gaps) {
   const auto of_row = [](const Quantities<AccuracyRow>& quantities) {
     return of_part<SettingRow>(quantities, &SettingRow::part);
   };
-  Quantities<SettingRow> of_times;
-  for (const double time : times)
-    of_times.emplace_back(
-        for_programs(Column{"temperature_error_" + digits_of(time, significant(6, millisecond)) + "_ms",
-                            "T error at " + milliseconds(time), fixed(2, kelvin),
-                            "Error of the hottest point then, first gap, without reaction."}),
-        of_list(&AccuracyRow::error_at_times, times_of, time));
   return joined<SettingRow>(
       {of_row({{"setting", "setting", text(), "What is set otherwise than in the scene.",
                 &AccuracyRow::setting, &RecordedSetting::label},
                {"cell", "cell", significant(3, keys::millimetre),
                 "Size of the charge's smallest cells, as computed.", &AccuracyRow::setting,
                 &RecordedSetting::cell},
-               {processor_time, &AccuracyRow::setting, &RecordedSetting::processor_time},
-               {quantity::wall_time, &AccuracyRow::wall_time},
-               {"particle_steps", "particle steps", significant(3), "Particles times steps.",
-                &AccuracyRow::particle_steps},
-               {quantity::memory, &AccuracyRow::memory}}),
+               {processor_time, &AccuracyRow::setting, &RecordedSetting::processor_time}}),
        by_gap(gaps, "T error", "temperature_error", fixed(2, kelvin), &AccuracyRow::temperature_error),
        of_row({{temperature_bound, &AccuracyRow::setting, &RecordedSetting::temperature_bound},
                {quantity::critical_gap, &AccuracyRow::setting, &RecordedSetting::critical_gap},
                {"critical_gap_error", "its error", significant(2, centimetre),
                 "Critical gap minus the reference.", &AccuracyRow::critical_gap_error},
                {critical_gap_bound, &AccuracyRow::setting, &RecordedSetting::critical_gap_bound},
-               {"bottom_pressure_error", "p(t)", fixed(2, percent),
-                "Relative L2 difference of the bottom pressure from the finest mesh.",
-                &AccuracyRow::pressure_error},
-               {"bottom_pressure_peak_error", "p peak", fixed(2, percent), "Relative error of its peak.",
-                &AccuracyRow::peak_pressure_error}}),
-       by_gap(igniting_gaps, "ignition", "ignition_time_error", fixed(3, millisecond),
-              &AccuracyRow::ignition_time_error),
-       of_times,
-       of_row({{quantity::energy_drift, &AccuracyRow::answer, &CaseAnswer::run, &RunSummary::energy_drift},
+               {quantity::energy_drift, &AccuracyRow::answer, &CaseAnswer::run, &RunSummary::energy_drift},
                {for_programs(
                     Column{"is_scene", "of the scene", text(), "Whether it is the setting of the scene."}),
                 &AccuracyRow::baseline},
@@ -185,21 +159,10 @@ Quantities<SettingRow> setting_quantities(const std::vector<double>& gaps,
 /// How wrong the own setting of a variant is: nothing but its name where that setting did not run soundly.
 struct VariantRow {
   const VariantAccuracy* variant;
-  const AccuracyRow* own;                       ///< nullptr where it did not run soundly
-  const RecordedSetting* half_bound = nullptr;  ///< the cheapest with half the bound
-  const AccuracyRow* most_distant = nullptr;
+  const AccuracyRow* own;  ///< nullptr where it did not run soundly
 };
 
-VariantRow variant_row(const VariantAccuracy& variant) {
-  VariantRow row{&variant, variant.baseline()};
-  if (row.own == nullptr) return row;
-  row.half_bound = cheapest_within(variant.record, 0.5 * row.own->setting.temperature_bound);
-  row.most_distant = row.own;
-  for (const AccuracyRow& each : variant.rows)
-    if (!each.other_model && each.largest_temperature_error > row.most_distant->largest_temperature_error)
-      row.most_distant = &each;
-  return row;
-}
+VariantRow variant_row(const VariantAccuracy& variant) { return {&variant, variant.baseline()}; }
 
 const Quantities<VariantRow> variant_quantities{
     {quantity::variant,
@@ -216,19 +179,7 @@ const Quantities<VariantRow> variant_quantities{
     {"reference_uncertainty", "reference uncertain by", fixed(2, kelvin),
      "By how much the reference of T max may itself be off.",
      [](const VariantRow& row) { return row.own ? row.variant->reference_uncertainty() : not_a_number; }},
-    {processor_time, &VariantRow::own, &AccuracyRow::setting, &RecordedSetting::processor_time},
-    {"half_bound_setting", "cheapest with half the bound", text(),
-     "The cheapest setting with half the bound.",
-     [](const VariantRow& row) {
-       if (row.half_bound != nullptr) return Cell(row.half_bound->label);
-       return row.own != nullptr ? Cell(std::string("none here")) : Cell();
-     }},
-    {"half_bound_processor_time", "its time", fixed(1, second), "Its processor time.",
-     &VariantRow::half_bound, &RecordedSetting::processor_time},
-    {"most_distant_setting", "most distant setting", text(), "The setting farthest from the reference.",
-     &VariantRow::most_distant, &AccuracyRow::setting, &RecordedSetting::label},
-    {"most_distant", "its distance", fixed(2, kelvin), "Its distance of T max.", &VariantRow::most_distant,
-     &AccuracyRow::largest_temperature_error}};
+    {processor_time, &VariantRow::own, &AccuracyRow::setting, &RecordedSetting::processor_time}};
 
 }  // namespace
 
@@ -240,23 +191,8 @@ Table reference_table(const AccuracyResult& result) {
       const std::string at = " at " + centimetres(gaps[gap]);
       add((reference.inert[gap] ? "T max without reaction" : "T max") + at, quantity::temperature_max.form,
           reference.temperature[gap]);
-      add("ignition time" + at, quantity::ignition_time.form, reference.ignition_time[gap]);
     }
     add("critical gap", quantity::critical_gap.form, reference.critical_gap);
-    add("peak pressure of the charge bottom", quantity::pressure.form, reference.peak_pressure);
-    for (std::size_t i = 0; i < reference.at_times.size(); ++i)
-      add(fmt::format("T without reaction at {}, gap {}", milliseconds(times_of(variant)[i]),
-                      centimetres(gaps.front())),
-          quantity::temperature_max.form, reference.at_times[i]);
-  });
-}
-
-Table point_table(const AccuracyResult& result) {
-  return quantity_table(result, [](const VariantAccuracy& variant, const auto& add) {
-    const std::string gap = ", gap " + centimetres(gaps_of(variant).front());
-    for (std::size_t i = 0; i < variant.reference->points.size(); ++i)
-      add(variant.rows.front().points[i].name + gap, quantity::temperature_max.form,
-          variant.reference->points[i]);
   });
 }
 
@@ -264,16 +200,7 @@ Table setting_table(const AccuracyResult& result) {
   const auto rows = parts_of<AccuracyRow>(result.variants, [](const VariantAccuracy& variant) {
     return variant.reference ? std::span(variant.rows) : std::span<const AccuracyRow>();
   });
-  // A gap whose time can be compared ignites on all reference meshes.
-  const auto igniting_gaps_of = [](const VariantAccuracy& variant) {
-    std::vector<double> gaps;
-    for (std::size_t i = 0; i < gaps_of(variant).size(); ++i)
-      if (!variant.reference->ignition_time[i].values.empty()) gaps.push_back(gaps_of(variant)[i]);
-    return gaps;
-  };
-  const auto quantities =
-      setting_quantities(all_of_variants(result, gaps_of), all_of_variants(result, igniting_gaps_of),
-                         all_of_variants(result, times_of));
+  const auto quantities = setting_quantities(all_of_variants(result, gaps_of));
   return table_of("Error against run time", with_variants(result, quantities, &SettingRow::whole), rows,
                   said("accuracy.note.settings"));
 }
@@ -285,10 +212,9 @@ Table variant_table(const AccuracyResult& result) {
 
 std::vector<ReportTable> accuracy_results() {
   const auto reference = keys::described(reference_quantities({1e-3}));
-  return {{table_of({}, setting_quantities({0.0}, {0.0}, {1e-3}), {}), "accuracy.csv", "settings"},
+  return {{table_of({}, setting_quantities({0.0}), {}), "accuracy.csv", "settings"},
           {table_of({}, variant_quantities, {}), "variants.csv", "variants"},
-          {Table{.columns = reference}, "reference.csv", "reference"},
-          {Table{.columns = reference}, "points.csv", "points"}};
+          {Table{.columns = reference}, "reference.csv", "reference"}};
 }
 
 }  // namespace launchsafe::kinds

@@ -32,12 +32,6 @@ void check_fit_of_load(const StudyFile& study, const CalibrationTargets& targets
 const std::vector<Key<CalibrationSettings>> calibration_keys{
     list_key("meshes", Dimension::length, between(1e-5, 1), Standing::assumed,
              "Cell sizes, each a mechanical run; the scene's if absent.", &CalibrationSettings::meshes),
-    flag_key("compare_kinetics", Standing::assumed,
-             "Calibrate with every named kinetics rather than with the scene's alone.",
-             &CalibrationSettings::compare_kinetics),
-    range_key("ignition_bracket", Dimension::temperature, between(0, 5000), Standing::paper,
-              "Published bracket of the ignition temperature, a check on the calibrated one.",
-              &CalibrationSettings::ignition_lowest, &CalibrationSettings::ignition_highest),
     flag_key("load_fitted", Standing::assumed,
              "Fit peak time, width and steepness of the load's bell too, with the constants by least "
              "squares, to the highest temperatures over the launch and at early_time (0.5 K) and to the two "
@@ -134,7 +128,6 @@ Kind calibration_kind() {
       .tables = {reference_table()},
       .make_cases = make_calibration_cases,
       .run = outcome_of<run_calibration, failed_runs>,
-      .files = {"calibration.json"},
       .results = calibration_results,
   };
 }

@@ -55,12 +55,6 @@ double misfit_of(const SkinModel& model, const BottomTrace& trace, const Referen
   return maximum_at(model, trace, row.gap) - row.maximum_temperature;
 }
 
-void find_misfits(const SkinModel& model, const BottomTrace& trace, const CalibrationTargets& targets,
-                  CalibratedConstants& result) {
-  result.zero_gap_misfit = misfit_of(model, trace, targets.zero_gap);
-  result.wide_gap_misfit = misfit_of(model, trace, targets.wide_gap);
-}
-
 /// Sets a constant to where a misfit, which changes sign once over the positive numbers, is 0, sought from
 /// its value by factors of 2 both ways; false where that is nowhere.
 bool solve(double& constant, const std::function<double()>& misfit) {
@@ -97,8 +91,7 @@ struct FitFailed {
 };
 
 /// Alternates the two fits until both rows are met.
-void fit_both(SkinModel& model, const BottomTrace& trace, const CalibrationTargets& targets,
-              CalibratedConstants& result) {
+void fit_both(SkinModel& model, const BottomTrace& trace, const CalibrationTargets& targets) {
   for (int round = 0; round < most_rounds; ++round) {
     if (model.surface.localisation <= 0) model.surface.localisation = 100.0;
     if (!solve(model.surface.localisation, [&] { return misfit_of(model, trace, targets.zero_gap); }))
@@ -107,8 +100,8 @@ void fit_both(SkinModel& model, const BottomTrace& trace, const CalibrationTarge
     if (!solve(model.surface.exchange_time, [&] { return misfit_of(model, trace, targets.wide_gap); }))
       throw FitFailed{fmt::format("no exchange time gives {:.6g} K at {:.6g} cm",
                                   targets.wide_gap.maximum_temperature, 100.0 * targets.wide_gap.gap)};
-    find_misfits(model, trace, targets, result);
-    if (std::abs(result.zero_gap_misfit) <= tightness && std::abs(result.wide_gap_misfit) <= tightness)
+    if (std::abs(misfit_of(model, trace, targets.zero_gap)) <= tightness &&
+        std::abs(misfit_of(model, trace, targets.wide_gap)) <= tightness)
       return;
   }
   throw FitFailed{"the two fits do not settle"};
@@ -130,8 +123,7 @@ void check(const math::NonlinearFit& fit) {
 }
 
 /// Least squares of all numbers of the two rows from there on, with the load held.
-void fit_all_numbers(SkinModel& model, const BottomTrace& trace, const CalibrationTargets& targets,
-                     CalibratedConstants& result) {
+void fit_all_numbers(SkinModel& model, const BottomTrace& trace, const CalibrationTargets& targets) {
   const scene::Surface start = model.surface;
   const auto set = [&](const std::vector<double>& logarithms) {
     model.surface.localisation = start.localisation * std::exp(logarithms[0]);
@@ -146,14 +138,13 @@ void fit_all_numbers(SkinModel& model, const BottomTrace& trace, const Calibrati
   const math::NonlinearFit fit = math::fit_nonlinear(misfits, {0.0, 0.0}, difference_step);
   check(fit);
   set(fit.unknowns);
-  find_misfits(model, trace, targets, result);
 }
 
 /// Fills the result as far as the fit comes.
 void fit_constants(SkinModel& model, const BottomTrace& trace, const CalibrationTargets& targets,
                    CalibratedConstants& result) {
-  fit_both(model, trace, targets, result);
-  if (targets.load_fitted) fit_all_numbers(model, trace, targets, result);
+  fit_both(model, trace, targets);
+  if (targets.load_fitted) fit_all_numbers(model, trace, targets);
   result.constants.localisation = model.surface.localisation;
   result.constants.exchange_time = model.surface.exchange_time;
   result.ignition_lowest = maximum_at(model, trace, targets.safe_gap);
@@ -200,18 +191,6 @@ struct LoadTrials {
     const auto trials = of_each(points, [&](const auto& point) { return trial_at(point); });
     run_all(trials);
     return of_each(trials, [&](const Scene& trial) { return misfits_of(trial); });
-  }
-
-  /// Derivative of the misfits with respect to the pressure at the start, 1/Pa.
-  std::vector<double> base_derivative(const math::NonlinearFit& fit) {
-    Scene raised = trial_at(fit.unknowns);
-    const double change = 2e-3 * raised.load.peak;
-    raised.load.base += change;
-    run_all({raised});
-    std::vector<double> derivative = misfits_of(raised);
-    for (std::size_t i = 0; i < derivative.size(); ++i)
-      derivative[i] = (derivative[i] - fit.residuals[i]) / change;
-    return derivative;
   }
 
   Scene trial_at(const std::vector<double>& point) const {
@@ -264,7 +243,6 @@ void describe(FittedLoad& load, const math::NonlinearFit& fit, LoadTrials& trial
   const double variance = left == 0 ? 1.0 : std::max(1.0, load.sum_of_squares / static_cast<double>(left));
   load.covariance = fit.covariance;
   for (double& entry : load.covariance) entry *= variance;
-  load.base = math::add_unknown(fit, trials.base_derivative(fit));
 }
 
 }  // namespace
@@ -330,14 +308,6 @@ CalibratedConstants calibrate(const SkinModel& given, const BottomTrace& trace,
     result.failure = failed.why;
   }
   return result;
-}
-
-double FittedLoad::deviation(std::size_t i) const {
-  return std::sqrt(covariance.at(i * fitted_keys.size() + i));
-}
-
-double FittedLoad::correlation(std::size_t i, std::size_t j) const {
-  return covariance.at(i * fitted_keys.size() + j) / (deviation(i) * deviation(j));
 }
 
 std::string calibration_validity_warnings(const Scene& scene, const MechanicsResult& mechanics) {

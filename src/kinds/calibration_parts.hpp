@@ -38,7 +38,7 @@ std::string calibration_validity_warnings(const Scene& scene, const MechanicsRes
 /// The targets among a study's references; throws what is missing.
 CalibrationTargets calibration_targets(const StudyFile& study);
 
-/// Fills the compared numbers, the placements and the root mean squares of a row.
+/// Fills the compared numbers and the root mean squares of a row.
 void compare(const Study& study, const SkinModel& model, const BottomTrace& trace, CalibrationRow& row);
 
 /// How the runs of a calibration went.

@@ -26,16 +26,6 @@ double place_misfit(const surface::SkinHistory& history, const BottomTrace& trac
   return there - surface::maximum_at_time(history, trace, time).temperature;
 }
 
-/// Of a straight line over the gap through what is published of the two calibrated rows. NaN without two such
-/// rows, or where one of them does not have the number.
-double on_line(const std::vector<Reference>& references, double gap, double Reference::*number) {
-  const Reference *zero = nullptr, *wide = nullptr;
-  for (const Reference& each : references)
-    if (each.calibrated) (each.gap == 0.0 ? zero : wide) = &each;
-  if (zero == nullptr || wide == nullptr) return not_a_number;
-  return zero->*number + (wide->*number - zero->*number) * gap / wide->gap;
-}
-
 /// What one published row says of one calibrated model.
 struct RowComparison {
   const Study& study;
@@ -48,7 +38,7 @@ struct RowComparison {
   std::string at_early = fmt::format(" at {:.6g} ms", 1e3 * study.early_time);
   double end = trace.time.empty() ? 0.0 : trace.time.back();        ///< s
   Use rest = reference.selection ? Use::chosen_by : Use::held_out;  ///< of what is not fitted
-  bool fitted = reference.calibrated && row.calibratable;           ///< T max is
+  bool fitted = reference.calibrated;                               ///< T max is
   bool all_fitted = fitted && settings_of<CalibrationSettings>(study).load_fitted;
 
   void add_all() {
@@ -62,11 +52,6 @@ struct RowComparison {
     // T1 was set so that this gap ignites: when it does is not held out.
     add("ignition time", history.ignition ? history.ignition->time : not_a_number, reference.ignition_time,
         {.temperature = false, .in_seconds = true, .use = Use::chosen_by});
-    place("T max", trace.name_of(maximum.station), reference.ignited() ? std::string{} : reference.point);
-    if (reference.ignited())
-      place("first ignition", history.ignition ? trace.stations[history.ignition->station].name : "none",
-            reference.point);
-    place("T" + at_early, trace.name_of(early.station), reference.early_point);
     if (reference.selection && reference.gap == 0.0) add_places();
   }
 
@@ -89,7 +74,6 @@ struct RowComparison {
     // Without a gap the temperature at the early time tells of the load, not of the interfaces.
     ComparedNumber compared{.selects = early && reference.selection && reference.gap > 0.0,
                             .use = is_fitted ? Use::fitted : rest};
-    if (!is_fitted) compared.line = on_line(study.references, reference.gap, number);
     add(std::move(quantity), computed, reference.*number, std::move(compared));
   }
   void add_rise() {
@@ -100,26 +84,20 @@ struct RowComparison {
     add("fast rise begins", rise.begins, reference.rise_begins, instant);
     add("fast rise ends", rise.unfinished ? not_a_number : rise.ends, reference.rise_ends, instant);
   }
-  void place(std::string quantity, std::string computed, const std::string& published) {
-    if (!published.empty())
-      row.placements.push_back({std::move(quantity), reference.gap, std::move(computed), published});
-  }
   void add_places() {
-    const auto add_place = [&](const std::string& at, const std::string& point, double time) {
-      if (!point.empty())
-        row.selection.push_back({"hottest place" + at, place_misfit(history, trace, point, time)});
+    const auto add_place = [&](const std::string& point, double time) {
+      if (!point.empty()) row.selection.push_back(place_misfit(history, trace, point, time));
     };
-    add_place(at_early, reference.early_point, study.early_time);
-    add_place(" at the end", reference.point, end);
+    add_place(reference.early_point, study.early_time);
+    add_place(reference.point, end);
   }
 };
 
 /// Over what is not fitted. NaN where any misfit is: a number that cannot be computed leaves no good mean.
-double root_mean_square(const CalibrationRow& row, bool temperatures) {
+double root_mean_square(const CalibrationRow& row) {
   std::vector<double> misfits;
   for (const ComparedNumber& each : row.compared)
-    if (each.temperature == temperatures && !each.in_seconds && each.use != Use::fitted)
-      misfits.push_back(each.misfit());
+    if (each.temperature && each.use != Use::fitted) misfits.push_back(each.misfit());
   return root_mean_square_of(misfits);
 }
 
@@ -128,14 +106,12 @@ void add_selection(CalibrationRow& row) {
   std::map<std::string, std::vector<double>> spreads;
   for (const ComparedNumber& each : row.compared) {
     if (each.selects && each.temperature)
-      row.selection.push_back(
-          {fmt::format("{} at {:.6g} cm", each.quantity, 100.0 * each.gap), each.misfit()});
+      row.selection.push_back(each.misfit());
     else if (each.selects)
       spreads[each.quantity].push_back(each.misfit());
   }
-  for (const auto& [quantity, misfits] : spreads)
-    row.selection.push_back({quantity, root_mean_square_of(misfits)});
-  row.selection_root_mean_square = root_mean_square_of(of_each(row.selection, &SelectionMisfit::misfit));
+  for (const auto& [quantity, misfits] : spreads) row.selection.push_back(root_mean_square_of(misfits));
+  row.selection_root_mean_square = root_mean_square_of(row.selection);
 }
 
 }  // namespace
@@ -154,8 +130,7 @@ void compare(const Study& study, const SkinModel& model, const BottomTrace& trac
   for (const Reference& reference : study.references)
     RowComparison{study, model, trace, reference, row}.add_all();
   add_selection(row);
-  row.root_mean_square = root_mean_square(row, true);
-  row.spread_root_mean_square = root_mean_square(row, false);
+  row.root_mean_square = root_mean_square(row);
 }
 
 }  // namespace launchsafe::kinds

@@ -6,82 +6,6 @@ namespace launchsafe::kinds {
 
 namespace {
 
-/// From the least to the largest of the values that it includes.
-struct Extent {
-  double lowest = math::infinity, highest = -math::infinity;
-  void include(double value) {
-    lowest = std::min(lowest, value);
-    highest = std::max(highest, value);
-  }
-};
-
-struct Effect {
-  double temperature = not_a_number;  ///< K
-  double critical = not_a_number;     ///< m
-  Extent values;                      ///< of the axis, SI
-};
-
-void raise(double& most, double value) {
-  if (std::isfinite(value) && !(value <= most)) most = value;
-}
-
-/// Of all cases, or of those with a crack below its flaw; without changes where one of them failed.
-Effect effect_of(const CriticalGapResult& result, std::size_t axis, bool below_flaw) {
-  // Of the cases that differ along the axis alone: K, infinite where one ignites, by gap too; and m.
-  std::map<std::pair<std::vector<double>, double>, Extent> temperatures;
-  std::map<std::vector<double>, Extent> critical_gaps;
-  Effect effect;
-  bool all_completed = true;
-  for (std::size_t i = 0; i < result.answers.size(); ++i) {
-    const StudyCase& input = result.study.cases[i];
-    const CaseAnswer& answer = result.answers[i];
-    if (input.coordinates.size() <= axis) continue;
-    if (below_flaw && input.strength().initial_crack_radius >= input.strength().flaw_size) continue;
-    std::vector<double> others = input.coordinates;
-    effect.values.include(others[axis]);
-    all_completed = all_completed && answer.completed();
-    others[axis] = 0.0;
-    critical_gaps[others].include(report::value_of(answer.critical));
-    for (const GapVerdict& row : answer.verdicts)
-      temperatures[{others, row.gap}].include(row.ignition ? math::infinity : row.maximum.temperature);
-  }
-  if (!all_completed) return effect;
-  for (const auto& [others, range] : critical_gaps) raise(effect.critical, range.highest - range.lowest);
-  for (const auto& [others, range] : temperatures) raise(effect.temperature, range.highest - range.lowest);
-  return effect;
-}
-
-struct EffectRow {
-  std::string axis;
-  ShownKey key;
-  Effect effect;
-};
-
-const Quantities<EffectRow> effect_quantities{
-    {"axis", "axis", text(), "The axis.", &EffectRow::axis},
-    {"from", "from", text(), "Its lowest value.",
-     [](const EffectRow& row) { return row.key.text(row.effect.values.lowest); }},
-    {"to", "to", text(), "Its highest value.",
-     [](const EffectRow& row) { return row.key.text(row.effect.values.highest); }},
-    {"temperature_max_change", "T max by at most", significant(3, kelvin),
-     "Largest change of T max over the axis, all else the same, where nothing ignites.", &EffectRow::effect,
-     &Effect::temperature},
-    {"critical_gap_change", "critical gap by at most", significant(3, centimetre),
-     "Largest change of the critical gap over the axis, all else the same.", &EffectRow::effect,
-     &Effect::critical}};
-
-/// Of a crack radius that changes little below the flaw size; nothing where it changes much.
-Row crack_facts(const CriticalGapResult& result, const Effect& below) {
-  constexpr double little = 5.0;  // K
-  if (!(below.temperature <= little)) return {};
-  const bool friction_varies = std::ranges::any_of(result.study.study.axes, [](const Axis& axis) {
-    return axis.key.name == "charge.face_friction" || axis.key.name == "charge.crack_friction";
-  });
-  return {{"temperature", in_words(below.temperature, significant(2, kelvin))},
-          {"critical_gap", in_words(below.critical, significant(2, centimetre))},
-          {"held", result.study.scene.scene.charge().strength.face_friction > 0.0 && !friction_varies}};
-}
-
 /// Of a table on the page; the files have all.
 constexpr std::size_t most_rows = 200;
 
@@ -159,7 +83,6 @@ Row json_of_study(const CriticalGapResult& result, const Table& gaps) {
   Row members{{"axes", report::axes_json(result.study.study)},
               // Of the only case; where there are several, each has its own.
               {"critical_gap", result.answers.size() == 1 ? json_rows(gaps).front() : nullptr},
-              {"early_time_ms", shown_value(result.study.study.early_time, report::quantity::time(2).form)},
               {"counts", counts_json(result)},
               {"notes", report::mesh_notes(result.study)}};
   if (!result.details.empty()) members["timing"] = report::timing_json(result.timing);
@@ -171,7 +94,6 @@ Row json_of_study(const CriticalGapResult& result, const Table& gaps) {
 Plot temperature_plot(const CriticalGapResult& result) {
   const Row verdicts = json_rows(verdict_table(result)), cases = json_rows(critical_gap_table(result));
   Plot plot;
-  plot.columns = 1;
   std::size_t ignite = 0;
   auto row = verdicts.begin();
   for (std::size_t i = 0; i < result.details.size(); ++i) {
@@ -184,7 +106,6 @@ Plot temperature_plot(const CriticalGapResult& result) {
     ignite += std::ranges::any_of(gaps, [](const GapVerdict& gap) { return gap.ignition.has_value(); });
     const StudyCase& input = result.details[i].input;
     if (input.own_conditions) tables["comparison"] = json_rows(comparison_table(result));
-    if (result.study.study.demonstration) tables["demonstration"] = true;
     Plot panel = report::verdict_plot(tables, input.scene.scene);
     panel.height = 500;  // there is more room than on page one of a safety report
     if (result.details.size() == 1) return panel;
@@ -193,24 +114,6 @@ Plot temperature_plot(const CriticalGapResult& result) {
   }
   plot.title = fmt::format("{} of {} cases ignite at a computed gap", ignite, result.details.size());
   return plot;
-}
-
-Table axis_effect_table(const CriticalGapResult& result) {
-  std::vector<EffectRow> rows;
-  Row facts = Row::object();
-  const auto keys = report::shown_axes(result.study.study);
-  const auto add = [&](const ShownKey& key, const char* which, const Effect& effect) {
-    if (effect.values.lowest < effect.values.highest) rows.push_back({key.heading + which, key, effect});
-  };
-  for (std::size_t axis = 0; axis < keys.size(); ++axis) {
-    add(keys[axis], "", effect_of(result, axis, false));
-    if (keys[axis].scene_key != "charge.crack_radius") continue;
-    const Effect below = effect_of(result, axis, true);
-    add(keys[axis], ", below the flaw size", below);
-    facts["cracks"] = crack_facts(result, below);
-  }
-  return table_of("What each axis changes", effect_quantities, rows,
-                  said("critical_gap.note.axis_effects", facts));
 }
 
 std::string answer(const CriticalGapResult& result) {
@@ -231,15 +134,10 @@ Report report_of(const CriticalGapResult& result) {
   report.add({comparison_table(result), "", "comparison"});
   report.add({gaps, "critical_gaps.csv", "cases", Shown::page_and_terminal, most_rows});
   report.add({coupled_run_table(result), "", "coupled_runs"});
-  report.add({cited_limit_table(result), "", "cited_limits"});
-  GapPictures drawn = gap_pictures(result);
-  for (Picture& each : drawn.pictures) report.items.push_back(std::move(each));
-  report.remarks = std::move(drawn.remarks);
-  report.add({axis_effect_table(result), "", "axis_effects", Shown::page});
+  if (auto picture = gap_picture(result)) report.draw(std::move(*picture));
   if (in_detail) add_details(result, report);
   report.say("## What it rests on\n\n" + report::friction_remark(result.study));
-  report.say(report::uncertainty_remark(result.study) +
-             (in_detail ? "\n" : " " + said_below("critical_gap.traces")));
+  if (!in_detail) report.say(said_below("critical_gap.traces"));
   if (!in_detail) report.say(report::station_note(result.study) + "\n");
   report.say(limiter_remark(result));
   report.say("## Setup\n\n" + report::setup_text(result.study));

@@ -6,9 +6,6 @@
 
 namespace launchsafe::kinds {
 
-/// What the coupled runs did: "0.038 cm does not ignite; 0.0381 cm ignites".
-std::string confirmation_text(const CaseOutcome& outcome);
-
 /// Computed and published temperatures side by side; what the coupled runs came to that confirm critical
 /// gaps.
 Table comparison_table(const CriticalGapResult& result);

@@ -1,8 +1,6 @@
 // The table of kinds, and what several kinds share.
 #include "study_keys.hpp"
 
-#include <fnmatch.h>
-
 namespace launchsafe::kinds {
 
 const std::vector<Kind>& kinds() {
@@ -22,14 +20,6 @@ const Kind& kind_of(const Study& study) { return kind_named(study.kind.name); }
 
 StudyOutcome run_study(const StudyFile& study, const StudyOptions& options) {
   return kind_of(study.study).run(study, options);
-}
-
-bool may_write(const Kind& kind, std::string_view name) {
-  return name == "report.md" || name == "study.json" ||
-         std::ranges::any_of(
-             kind.files,
-             [&](const char* each) { return ::fnmatch(each, std::string(name).c_str(), 0) == 0; }) ||
-         std::ranges::any_of(kind.results(), [name](const ReportTable& table) { return table.csv == name; });
 }
 
 std::size_t count_failed(const std::vector<CaseAnswer>& answers) {

@@ -41,31 +41,6 @@ std::vector<std::string> kinds_with(const std::string& name) {
 /// The tables of all study files that are read apart from the keys.
 std::vector<std::string> common_tables() { return {"set", "accept"}; }
 
-/// What study files of earlier versions said, and how that is written now.
-struct FormerKey {
-  std::string_view name, now;
-};
-constexpr FormerKey former_keys[] = {
-    {"axes", "a [[vary]] with key and values for each axis, and gaps for gap"},
-    {"peak_pressures", "a [[vary]] with key = \"peak_pressure\" and values"},
-    {"crack_radii", "a [[vary]] with key = \"crack_radius\" and values"},
-    {"flaw_sizes", "a [[vary]] with key = \"flaw_size\" and values"},
-    {"input", "a [[vary]] with the same keys for each input"},
-    {"gap", "gaps, in every kind of study"},
-};
-
-void check_former(const toml::table& root, const std::string& file) {
-  const toml::node* kind = root.get("kind");
-  const std::string name = kind == nullptr ? std::string{} : kind->value_or(std::string{});
-  if (name == "sweep")
-    throw error_at(scene::place_of(*kind, file), "kind", "\"sweep\", which is critical-gap now",
-                   "kind \"critical-gap\", with a [[vary]] with key and values for each axis",
-                   "kind = \"critical-gap\"");
-  for (const FormerKey& former : former_keys)
-    if (const toml::node* node = root.get(former.name); node != nullptr)
-      throw error_at(scene::place_of(*node, file), former.name, "a key of an earlier version", former.now);
-}
-
 /// The kind that a study file names. Where it names none, a key that no kind has is the first fault.
 const Kind& read_kind(const toml::table& root, const std::string& file) {
   const toml::node* node = root.get("kind");
@@ -138,27 +113,17 @@ void settle_cases(const StudySource& source, const Kind& kind, const StudyKeys& 
 }
 
 /// A fault as people are told of it, who do not number the tables of a study: "vary.0.range" is vary.range to
-/// them; who write keys of the study below its first table, or those of its scene as they stand there. A
-/// group has a `set` of its own.
+/// them.
 InputError told(InputError error, const std::string& file) {
-  static const std::regex numbered(R"(^([^.]*)\.[0-9]+(\..*)$)"), in_table(R"(^[^.]*\.([^.]*).*$)");
-  if (error.file != file) return error;
-  error.key = std::regex_replace(error.key, numbered, "$1$2");
-  if (error.found != scene::an_unknown_key) return error;
-  const std::string inner = std::regex_replace(error.key, in_table, "$1");
-  const bool is_set = inner == "set" && !error.key.starts_with("group.");
-  const bool is_in_table = inner != error.key && (is_set || scene::has_key(describe_study_keys(), inner));
-  std::string meant = is_in_table ? inner : "";
-  if (scene::has_key(scene::describe_keys(), error.key))
-    meant = fmt::format("set = {{ {} = ... }}", error.key);
-  if (!meant.empty()) error.suggestion = meant + std::string(scene::above_tables);
+  static const std::regex numbered(R"(^([^.]*)\.[0-9]+(\..*)$)");
+  if (error.file == file) error.key = std::regex_replace(error.key, numbered, "$1$2");
   return error;
 }
 
 }  // namespace
 
 Expected<std::vector<Change>> changes_in(const OverrideTable& table, const std::string& file,
-                                         const std::string& written, SceneFile& scene) {
+                                         const std::string& written, const SceneFile& scene) {
   const auto& [name, node] = table;
   std::vector<Change> changes;
   if (!node) return changes;
@@ -168,8 +133,6 @@ Expected<std::vector<Change>> changes_in(const OverrideTable& table, const std::
     const auto key = taken(scene::describe_key(scene, leaf.name, place), name);
     const auto value = scene::read_value(*leaf.node, key, file);
     if (!value) return scene::within(name, value.error());
-    if (auto note = scene::note_on_former_word(*leaf.node, key, place))
-      scene.notes.push_back(std::move(*note));
     changes.push_back({leaf.name, *value, place, name + "." + leaf.name});
   }
   return changes;
@@ -212,7 +175,6 @@ Expected<StudyFile> read_study_table(const StudySource& source, const std::strin
   study.file = file;
   study.most_cases = most_cases;
   scene::check_content(source.root, file, scene::InputContent::study);
-  check_former(source.root, file);
   const Kind& kind = read_kind(source.root, file);
   const StudyKeys keys = joined({common_keys(), kind.keys});
   check_bare_uncertainties(source.root, keys, file);
@@ -236,7 +198,7 @@ Expected<StudyFile> parse_study(std::string_view text, const std::filesystem::pa
 }
 
 Expected<StudyFile> read_study(const std::filesystem::path& file, const StudyRequest& request) {
-  const auto text = scene::read_text_file(file, scene::largest_input, scene::InputContent::study);
+  const auto text = scene::read_text_file(file);
   return text ? parse_study(*text, file, request) : text.error();
 }
 

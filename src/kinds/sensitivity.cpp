@@ -1,6 +1,10 @@
-#include "sensitivity_parts.hpp"
+#include "launchsafe/kinds/sensitivity.hpp"
+
+#include "study_keys.hpp"
 
 namespace launchsafe::kinds {
+
+using math::Estimate;
 
 namespace {
 
@@ -10,24 +14,10 @@ constexpr double largest_seed = 9007199254740992.0;
 constexpr auto assumed = Standing::assumed;
 
 const std::vector<Key<SensitivitySettings>> sensitivity_keys{
-    word_key("method", assumed,
-             "Sobol's indices by differences, or of a polynomial that is fitted to fewer runs.",
-             {{"sobol", SensitivityMethod::sobol}, {"polynomial-chaos", SensitivityMethod::polynomial_chaos}},
-             &SensitivitySettings::method),
     number_key("seed", Dimension::count, between(0, largest_seed), assumed,
                "Seed of the design and of the bootstrap.", &SensitivitySettings::seed),
-    number_key("resamples", Dimension::count, between(100, 1e6), assumed, "Resamples of the bootstrap.",
-               &SensitivitySettings::resamples),
-    number_key("confidence", Dimension::number, between(0.5, 0.999), assumed, "Confidence of the intervals.",
-               &SensitivitySettings::confidence),
-    word_key("design", assumed,
-             "How the samples are laid out; a power of two of them is best for scrambled-sobol.",
-             {{"scrambled-sobol", math::Design::scrambled_sobol},
-              {"latin-hypercube", math::Design::latin_hypercube},
-              {"monte-carlo", math::Design::monte_carlo}},
-             &SensitivitySettings::design),
     number_key("samples", Dimension::count, between(2, 1e6), assumed,
-               "Samples N of the inputs: each (inputs + 2) mechanical runs, of polynomial-chaos one.",
+               "Samples of the inputs, each a mechanical run; a power of two is best.",
                &SensitivitySettings::samples),
 };
 
@@ -46,20 +36,10 @@ void check_limits(const StudyFile& study, const std::vector<double>& coordinates
   }
 }
 
-std::vector<std::size_t> columns_of(const Study& study) {
-  return of_each(inputs_of(study), &SensitivityInput::count);
-}
-
 /// Points of the unit cube of the axes, row by row.
 std::vector<double> design_points(const Study& study) {
   const auto& own = settings_of<SensitivitySettings>(study);
-  const auto rows = static_cast<std::size_t>(own.samples);
-  if (is_by_fit(study)) return math::unit_points(own.design, rows, study.axes.size(), own.seed);
-  const math::SaltelliDesign design = math::saltelli_design(own.design, rows, columns_of(study), own.seed);
-  std::vector<double> points;
-  for (std::size_t evaluation = 0; evaluation < design.evaluations(); ++evaluation)
-    std::ranges::copy(design.point(evaluation), std::back_inserter(points));
-  return points;
+  return math::unit_points(static_cast<std::size_t>(own.samples), study.axes.size(), own.seed);
 }
 
 /// SI, of all axes at a point of the unit cube. Its coordinates are shares of distributions; of the constants
@@ -81,7 +61,7 @@ std::vector<double> values_at(const Study& study, const std::vector<double>& poi
   return values;
 }
 
-void add_evaluations(StudyFile& study, const std::function<std::string(std::size_t evaluation)>& label) {
+void add_evaluations(StudyFile& study) {
   const std::vector<double> points = design_points(study.study);
   const std::size_t axes = study.study.axes.size(), count = points.size() / axes;
   const auto coordinates = [&](std::size_t evaluation) {
@@ -89,40 +69,9 @@ void add_evaluations(StudyFile& study, const std::function<std::string(std::size
   };
   for (std::size_t evaluation = 0; evaluation < count; ++evaluation)
     check_limits(study, coordinates(evaluation));
-  add_varied_cases(study, count, coordinates,
-                   [&](std::size_t evaluation, const StudyCase&) { return label(evaluation); });
-}
-
-std::string short_name(const Study& study, const SensitivityInput& input) {
-  return input.count > 1 ? "calibration" : study.axes[input.first].name;
-}
-
-void make_saltelli(StudyFile& study) {
-  const Study& s = study.study;
-  const std::vector<SensitivityInput> each_input = inputs_of(s);
-  const int rows = settings_of<SensitivitySettings>(s).samples;
-  const std::size_t blocks = each_input.size() + 2;
-  check_count(study, "samples", static_cast<double>(rows) * static_cast<double>(blocks),
-              fmt::format("{} samples x ({} inputs + 2)", rows, each_input.size()));
-  add_evaluations(study, [&](std::size_t evaluation) {
-    const std::size_t block = evaluation % blocks;
-    const bool mixed = block != math::SaltelliDesign::block_a && block != math::SaltelliDesign::block_b;
-    const SensitivityInput input = mixed ? each_input[block - 2] : SensitivityInput{};
-    return fmt::format("sample {} of {}", evaluation / blocks + 1,
-                       mixed                                    ? fmt::format("AB({})", short_name(s, input))
-                       : block == math::SaltelliDesign::block_a ? "A"
-                                                                : "B");
+  add_varied_cases(study, count, coordinates, [](std::size_t evaluation, const StudyCase&) {
+    return fmt::format("sample {}", evaluation + 1);
   });
-}
-
-void make_chaos_samples(StudyFile& study) {
-  const int samples = settings_of<SensitivitySettings>(study).samples;
-  check_count(study, "samples", samples, fmt::format("{} samples", samples));
-  const std::size_t fewest = math::fewest_chaos_points(study.study.axes.size());
-  if (static_cast<std::size_t>(samples) < fewest)
-    refuse_at(study, "samples", fmt::format("{} samples for a fit", samples),
-              fmt::format("at least {}: two an input, and 8", fewest));
-  add_evaluations(study, [](std::size_t evaluation) { return fmt::format("sample {}", evaluation + 1); });
 }
 
 void make_sensitivity_cases(const StudySource&, StudyFile& study) {
@@ -132,8 +81,13 @@ void make_sensitivity_cases(const StudySource&, StudyFile& study) {
     refuse_at(study, "gaps", fmt::format("{}{} gaps", whose, gaps.size()), "one gap",
               fmt::format("gaps = \"{}\"", format_quantity(gaps.back(), Dimension::length)));
   }
-  if (is_by_fit(study.study)) return make_chaos_samples(study);
-  make_saltelli(study);
+  const int samples = settings_of<SensitivitySettings>(study).samples;
+  check_count(study, "samples", samples, fmt::format("{} samples", samples));
+  const std::size_t fewest = math::fewest_chaos_points(study.study.axes.size());
+  if (static_cast<std::size_t>(samples) < fewest)
+    refuse_at(study, "samples", fmt::format("{} samples for a fit", samples),
+              fmt::format("at least {}: two an input, and 8", fewest));
+  add_evaluations(study);
 }
 
 double number_of(const OutputSensitivity& of, const SensitivityResult& result, std::size_t evaluation) {
@@ -145,14 +99,11 @@ double number_of(const OutputSensitivity& of, const SensitivityResult& result, s
   return input.scene.scene.charge().kinetics.ignition_temperature - temperature;
 }
 
-void summarise(const Study& study, OutputSensitivity& output) {
-  std::vector<double> sample;
-  for (std::size_t i = 0; i < output.values.size(); ++i)
-    if (samples_inputs(study, i)) sample.push_back(output.values[i]);
-  if (sample.size() < 2) return;
-  const auto [mean, squares] = math::moments_of(sample);
+void summarise(OutputSensitivity& output) {
+  if (output.values.size() < 2) return;
+  const auto [mean, squares] = math::moments_of(output.values);
   output.mean = mean;
-  output.deviation = std::sqrt(squares / static_cast<double>(sample.size() - 1));
+  output.deviation = std::sqrt(squares / static_cast<double>(output.values.size() - 1));
 }
 
 /// Why critical gaps, some of which are bounds, have no indices; with the first that is none.
@@ -181,7 +132,7 @@ math::ChaosBasis basis_of(const Axis& axis) {
 
 /// Fits a polynomial, whose terms have the indices. Their intervals are widened by the share of the variance
 /// that the fit misses of what it leaves out; where that is too large there are none.
-void estimate_by_chaos(const Study& study, OutputSensitivity& output) {
+void estimate(const Study& study, OutputSensitivity& output) {
   constexpr double most_unexplained = 0.1;
   const std::vector<double> points = design_points(study);
   const math::PolynomialChaos& fit =
@@ -198,20 +149,13 @@ void estimate_by_chaos(const Study& study, OutputSensitivity& output) {
   std::vector<std::size_t> begins = of_each(inputs_of(study), &SensitivityInput::first);
   begins.push_back(study.axes.size());
   output.sobol = math::chaos_indices(fit, points, output.values, begins,
-                                     settings_of<SensitivitySettings>(study).bootstrap());
+                                     {.seed = settings_of<SensitivitySettings>(study).seed});
   output.reason = output.sobol.reason;
   for (math::InputIndices& each : output.sobol.inputs)
     for (Estimate* estimate : {&each.first, &each.total}) {
       estimate->lower = std::max(0.0, estimate->lower - unexplained);
       estimate->upper = std::min(1.0, estimate->upper + unexplained);
     }
-}
-
-void estimate(const Study& study, OutputSensitivity& output) {
-  if (is_by_fit(study)) return estimate_by_chaos(study, output);
-  output.sobol = math::sobol_indices(inputs_of(study).size(), output.values,
-                                     settings_of<SensitivitySettings>(study).bootstrap());
-  output.reason = output.sobol.reason;
 }
 
 OutputSensitivity sensitivity_of(const SensitivityResult& result, SensitivityOutput which) {
@@ -228,7 +172,7 @@ OutputSensitivity sensitivity_of(const SensitivityResult& result, SensitivityOut
   }
   output.reason = missing_reason(output, result.answers);
   if (!output.reason.empty()) return output;
-  summarise(study, output);
+  summarise(output);
   estimate(study, output);
   return output;
 }
@@ -247,7 +191,6 @@ Kind sensitivity_kind() {
       .varies = {.distributions = true, .needed = "with key and distribution, or a calibration"},
       .make_cases = make_sensitivity_cases,
       .run = outcome_of<run_sensitivity, failures_of<SensitivityResult>>,
-      .files = {"histogram.svg", "sensitivity_*.svg"},
       .results = sensitivity_results,
   };
 }
@@ -262,10 +205,6 @@ std::vector<SensitivityInput> inputs_of(const Study& study) {
   for (std::size_t axis = 0; axis < study.axes.size(); axis += inputs.back().count)
     inputs.push_back({axis, calibrated && calibrated->first == axis ? calibrated->count : 1});
   return inputs;
-}
-
-bool samples_inputs(const Study& study, std::size_t evaluation) {
-  return is_by_fit(study) || evaluation % (inputs_of(study).size() + 2) < 2;
 }
 
 SensitivityResult run_sensitivity(const StudyFile& study, const StudyOptions& options) {

@@ -1,9 +1,28 @@
-// The answer, the tables, the pictures, the page and the files of a sensitivity study.
-#include "sensitivity_parts.hpp"
+// The answer, the tables, the page and the files of a sensitivity study.
+#include "launchsafe/kinds/sensitivity.hpp"
+#include "study_keys.hpp"
 
 namespace launchsafe::kinds {
 
+using math::Estimate;
+
 namespace {
+
+/// How an output is shown.
+struct ShownOutput {
+  Column column;
+  std::string phrase;  ///< "T max", "the margin": within a sentence
+
+  double value(double value_si) const { return shown_value(value_si, column.form); }
+};
+
+const ShownOutput& shown_output(SensitivityOutput output) {
+  static const std::array<ShownOutput, 3> all{
+      {{{"temperature_max", "T max", significant(6, kelvin), quantity::temperature_max.meaning}, "T max"},
+       {quantity::critical_gap, "the critical gap"},
+       {{"margin", "margin", significant(6, kelvin), "Ignition temperature less T max."}, "the margin"}}};
+  return all.at(static_cast<std::size_t>(output));
+}
 
 /// An input as people read it.
 struct ShownInput {
@@ -35,30 +54,17 @@ std::string estimate_text(const math::Estimate& estimate) {
                      report::significant(estimate.lower, 3), report::significant(estimate.upper, 3));
 }
 
-std::string text_of(math::Design design) {
-  constexpr std::array names{"independent random points", "a Latin hypercube", "a scrambled Sobol sequence"};
-  return names.at(static_cast<std::size_t>(design));
-}
-
 Row method_facts(const SensitivityResult& result) {
   const auto& own = settings_of<SensitivitySettings>(result.study);
-  return {{"name", own.method == SensitivityMethod::sobol ? "sobol" : "polynomial-chaos"},
-          {"text", ""},
-          {"N", own.samples},
-          {"evaluations", result.answers.size()},
-          {"seed", own.seed},
-          {"resamples", own.resamples},
-          {"confidence", own.confidence}};
+  const math::SobolOptions bootstrap;
+  return {{"name", "polynomial-chaos"},           {"text", ""},       {"N", own.samples},
+          {"evaluations", result.answers.size()}, {"seed", own.seed}, {"resamples", bootstrap.resamples},
+          {"confidence", bootstrap.level}};
 }
 
 std::string method_text(const SensitivityResult& result) {
-  const auto& own = settings_of<SensitivitySettings>(result.study);
   Row facts = method_facts(result);
-  facts.update({{"is_fit", is_by_fit(result.study.study)},
-                {"design", text_of(own.design)},
-                {"confidence_percent", shown_value(own.confidence, significant(6, percent))},
-                {"few", own.design == math::Design::scrambled_sobol && own.samples < 256},
-                {"calibrated", own.calibrated.has_value()}});
+  facts["calibrated"] = settings_of<SensitivitySettings>(result.study).calibrated.has_value();
   return said("sensitivity.method", facts).front();
 }
 
@@ -117,6 +123,12 @@ std::string output_text(const SensitivityResult& result, const OutputSensitivity
 
 // --- tables ---
 
+/// " at a gap of 0.02 cm", for outputs that belong to the study's gap.
+std::string at_gap(const Study& study, SensitivityOutput output) {
+  if (output == SensitivityOutput::critical_gap) return {};
+  return " at a gap of " + centimetres(study.gaps.front());
+}
+
 struct IndexRow {
   const OutputSensitivity* output;
   ShownInput input;
@@ -156,7 +168,6 @@ Quantities<IndexRow> index_quantities() {
 /// The same below each other for all outputs.
 const Quantities<IndexRow> all_index_quantities = joined<IndexRow>(
     {{{quantity::output, [](const IndexRow& row) { return shown_output(row.output->output).column.name; }},
-      {quantity::unit, [](const IndexRow&) { return ""; }},
       {quantity::reason, &IndexRow::output, &OutputSensitivity::reason}},
      index_quantities()});
 
@@ -206,53 +217,12 @@ Quantities<AnsweredCase> evaluation_quantities(const Study& study,
         {headed("failure", quantity::reason), &AnsweredCase::answer, &CaseAnswer::failure}}});
 }
 
-/// Whether the estimates of an input contradict each other: no true total order is below the first.
-bool total_below_first(const math::InputIndices& indices) {
-  return indices.total.value < indices.first.value;
-}
-
-std::vector<std::string> notes_of(const SensitivityResult& result, const OutputSensitivity& output) {
-  const ShownOutput& shown = shown_output(output.output);
-  const std::string& unit = shown.column.form.unit;
-  Row facts{{"reason", output.reason},
-            {"mean", report::number(shown.value(output.mean))},
-            {"deviation", shown.value(output.deviation)},
-            {"unit", unit.empty() ? "" : " " + unit},
-            {"method", method_text(result)},
-            {"inert", output.inert},
-            {"apart", false}};
-  // Inputs that show sampling error by their estimates, with their intervals.
-  const auto inputs = shown_inputs(result.study.study);
-  for (std::size_t i = 0; i < output.sobol.inputs.size(); ++i) {
-    const auto& [first, total] = output.sobol.inputs[i];
-    if (!total_below_first(output.sobol.inputs[i])) continue;
-    facts["contradictory"].push_back(
-        fmt::format("{} (total {}, first {})", inputs[i].name, estimate_text(total), estimate_text(first)));
-    if (total.upper < first.lower) facts["apart"] = true;
-  }
-  return said("sensitivity.note", facts);
-}
-
 }  // namespace
-
-const ShownOutput& shown_output(SensitivityOutput output) {
-  static const std::array<ShownOutput, 3> all{
-      {{{"temperature_max", "T max", significant(6, kelvin), quantity::temperature_max.meaning}, "T max"},
-       {quantity::critical_gap, "the critical gap"},
-       {{"margin", "margin", significant(6, kelvin), "Ignition temperature less T max."}, "the margin"}}};
-  return all.at(static_cast<std::size_t>(output));
-}
-
-std::string at_gap(const Study& study, SensitivityOutput output) {
-  if (output == SensitivityOutput::critical_gap) return {};
-  return " at a gap of " + centimetres(study.gaps.front());
-}
 
 std::string answer(const SensitivityResult& result) {
   std::vector<std::string> lines;
   for (const OutputSensitivity& output : result.outputs) lines.push_back(output_text(result, output));
   if (result.outputs.empty()) lines.emplace_back("There are no indices: the study did not come to its end.");
-  lines.push_back(samples_text(result));
   const std::size_t all = result.answers.size(), failed = count_failed(result.answers);
   const double share = static_cast<double>(failed) / static_cast<double>(all);
   std::ranges::move(
@@ -267,21 +237,15 @@ std::string answer(const SensitivityResult& result) {
 
 Report report_of(const SensitivityResult& result) {
   Report report{result.study.study.title, answer(result), report::remaking_command(result.study)};
-  report.add({sensitivity_table(result), "sensitivity.csv", "indices", Shown::terminal});
-  report.add({output_table(result), "", "outputs",
-              is_by_fit(result.study.study) ? Shown::page_and_terminal : Shown::file});
+  report.add({sensitivity_table(result), "sensitivity.csv", "indices", Shown::page_and_terminal});
+  report.add({output_table(result), "", "outputs", Shown::page_and_terminal});
   for (const OutputSensitivity& output : result.outputs) {
-    report.add({.table = sensitivity_table(result, output), .shown = Shown::page});
     // That of T max is the margin's, where the ignition temperature is one more input.
     if (output.reason.empty() && output.output != SensitivityOutput::maximum_temperature)
       report.draw({"sensitivity_" + shown_output(output.output).column.name + ".svg",
                    sensitivity_plot(result, output),
                    "sensitivity of " + shown_output(output.output).column.heading});
   }
-  report.add({quantile_table(result), "quantiles.csv", "quantiles"});
-  if (Plot plot = histogram_plot(result); !plot.series.empty())
-    report.draw({"histogram.svg", std::move(plot), "how the draws are distributed"});
-  report.add({histogram_table(result), "histogram.csv", "histogram", Shown::file});
   report.say("## What it rests on\n\n" + report::friction_remark(result.study));
   report.say(said_below("sensitivity.rests"));
   report.say("## Setup\n\n" + report::setup_text(result.study));
@@ -291,24 +255,51 @@ Report report_of(const SensitivityResult& result) {
   Row facts{{"method", method},
             {"gap_cm", report::number(shown_gap(result.study.study.gaps.front()))},
             {"inputs", report::axes_json(result.study.study)},
-            {"ignition", ignition_json(result)},
             {"failed", count_failed(result.answers)},
             {"notes", report::mesh_notes(result.study)}};
   report.json = study_json(result.study, report, facts);
   return report;
 }
 
-Table sensitivity_table(const SensitivityResult& result, const OutputSensitivity& output) {
-  return table_of(
-      "Sensitivity of " + shown_output(output.output).phrase + at_gap(result.study.study, output.output),
-      index_quantities(), index_rows(result, output), notes_of(result, output));
-}
-
 Table sensitivity_table(const SensitivityResult& result) {
   std::vector<IndexRow> rows;
   for (const OutputSensitivity& output : result.outputs)
     for (IndexRow& row : index_rows(result, output)) rows.push_back(std::move(row));
-  return table_of("Sensitivity", all_index_quantities, rows, {method_text(result)});
+  std::vector<std::string> notes{method_text(result)};
+  if (std::ranges::any_of(result.outputs, &OutputSensitivity::inert))
+    notes.push_back(said("sensitivity.inert").front());
+  return table_of("Sensitivity", all_index_quantities, rows, notes);
+}
+
+// Inputs below each other, the one with the largest total order at the top.
+Plot sensitivity_plot(const SensitivityResult& result, const OutputSensitivity& output) {
+  constexpr int blue = 0, black = 6;
+  const auto shown = shown_inputs(result.study.study);
+  const auto order =
+      study::places_by(shown.size(), [&](std::size_t i) { return -output.sobol.inputs[i].total.value; });
+  Plot plot;
+  const double largest = output.sobol.inputs[order.front()].total.value;
+  plot.title =
+      fmt::format("{} makes {} of the variance of {}", report::plain_words(shown[order.front()].name),
+                  largest > 1.0 ? "all, within sampling error," : report::fixed(100.0 * largest, 0) + " %",
+                  shown_output(output.output).phrase + at_gap(result.study.study, output.output));
+  plot.title[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(plot.title[0])));
+  plot.x = {.label = "share of the variance [1]", .minimum = 0.0};
+  Series bars{.style = Style::filled_bars, .colour = blue};
+  Series intervals{
+      .label = "95 % interval", .style = Style::horizontal_bars, .colour = black, .mark = Mark::none};
+  for (std::size_t place = 0; place < order.size(); ++place) {
+    const double y = static_cast<double>(order.size() - place);
+    const Estimate& total = output.sobol.inputs[order[place]].total;
+    plot.y.tics.push_back({y, report::plain_words(shown[order[place]].name)});
+    bars.add(total.value, y, 0.0, total.value);
+    intervals.add(total.value, y, total.lower, total.upper);
+  }
+  plot.y.minimum = 0.4;
+  plot.y.maximum = static_cast<double>(order.size()) + 0.6;
+  plot.series = {std::move(bars), std::move(intervals)};
+  plot.height = std::min(180 + 56 * static_cast<int>(order.size()), 1600);
+  return plot;
 }
 
 Table output_table(const SensitivityResult& result) {
@@ -327,54 +318,7 @@ std::vector<ReportTable> sensitivity_results() {
   outputs[2].output = SensitivityOutput::margin;
   return {{table_of({}, all_index_quantities, {}), "sensitivity.csv", "indices"},
           {table_of({}, output_quantities(), {}), "", "outputs"},
-          {quantile_table({}), "quantiles.csv", "quantiles"},
-          {histogram_table({}), "histogram.csv", "histogram"},
           {table_of({}, evaluation_quantities({}, outputs), {}), "evaluations.csv", "evaluations"}};
-}
-
-// Inputs below each other, the one with the largest total order at the top.
-Plot sensitivity_plot(const SensitivityResult& result, const OutputSensitivity& output) {
-  constexpr int blue = 0, black = 6;
-  const auto shown = shown_inputs(result.study.study);
-  const Study& study = result.study.study;
-  const auto order =
-      study::places_by(shown.size(), [&](std::size_t i) { return -output.sobol.inputs[i].total.value; });
-  Plot plot;
-  const double largest = output.sobol.inputs[order.front()].total.value;
-  const bool interact = std::ranges::any_of(output.sobol.inputs, [](const math::InputIndices& each) {
-    return each.total.lower > each.first.upper;
-  });
-  plot.title =
-      fmt::format("{} makes {} of the variance of {}{}", report::plain_words(shown[order.front()].name),
-                  largest > 1.0 ? "all, within sampling error," : report::fixed(100.0 * largest, 0) + " %",
-                  shown_output(output.output).phrase + at_gap(study, output.output),
-                  interact ? "" : ", without interactions");
-  plot.title[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(plot.title[0])));
-  for (const std::size_t i : order)
-    if (output.sobol.inputs[i].total.value >= negligible_share)
-      plot.subtitle +=
-          fmt::format("{}{}: {}", plot.subtitle.empty() ? "" : "; ", report::plain_words(shown[i].name),
-                      shown[i].distribution.substr(0, shown[i].distribution.find(':')));
-  plot.x = {.label = "share of the variance [1]", .minimum = 0.0};
-  Series bars{.style = Style::filled_bars, .colour = blue};
-  Series intervals{
-      .label =
-          in_words(settings_of<SensitivitySettings>(study).confidence, significant(6, percent)) + " interval",
-      .style = Style::horizontal_bars,
-      .colour = black,
-      .mark = Mark::none};
-  for (std::size_t place = 0; place < order.size(); ++place) {
-    const double y = static_cast<double>(order.size() - place);
-    const Estimate& total = output.sobol.inputs[order[place]].total;
-    plot.y.tics.push_back({y, report::plain_words(shown[order[place]].name)});
-    bars.add(total.value, y, 0.0, total.value);
-    intervals.add(total.value, y, total.lower, total.upper);
-  }
-  plot.y.minimum = 0.4;
-  plot.y.maximum = static_cast<double>(order.size()) + 0.6;
-  plot.series = {std::move(bars), std::move(intervals)};
-  plot.height = std::min(180 + 56 * static_cast<int>(order.size()), 1600);
-  return plot;
 }
 
 }  // namespace launchsafe::kinds

@@ -42,16 +42,15 @@ Finding judge_stopped(const StressCase& asked, const MechanicsResult& mechanics)
 
 std::string numbers_of(const run::CombustionHistory& c) {
   const double pressure = *std::ranges::max_element(c.pressure);
-  return fmt::format("burnt {:.3g} g to {:.3g} mm, gas at {:.0f} K, up to {:.3g} MPa, energy residual {:.1e}",
-                     1e3 * c.burnt_mass.back(), 1e3 * c.burnt_depth.back(), c.gas_temperature.back(),
-                     1e-6 * pressure, c.energy_residual);
+  return fmt::format("burnt {:.3g} g, gas at {:.0f} K, up to {:.3g} MPa, energy residual {:.1e}",
+                     1e3 * c.burnt_mass.back(), c.gas_temperature.back(), 1e-6 * pressure, c.energy_residual);
 }
 
 /// Of a run through the ignition of one gap.
-Finding judge_burn(const StressCase& asked, const Scene& scene, double gap, const run::CaseResult& result) {
+Finding judge_burn(const Scene& scene, double gap, const run::CaseResult& result) {
   const auto& combustion = result.gaps.front().combustion;
   if (!combustion) return {Outcome::degraded, "nothing ignited"};
-  const Sentences violations = violations_of({scene, result.mechanics, {gap}, &*combustion}, asked);
+  const Sentences violations = violations_of({scene, result.mechanics, {gap}, &*combustion});
   if (!violations.empty()) return {Outcome::wrong, joined_text(violations)};
   Sentences all = run::combustion_validity_warnings(scene, *combustion);
   const Outcome outcome = all.empty() ? Outcome::held : Outcome::degraded;
@@ -60,12 +59,11 @@ Finding judge_burn(const StressCase& asked, const Scene& scene, double gap, cons
 }
 
 /// Of the launch of one gap alone.
-Finding judge_gap(const StressCase& asked, const StudyCase& input, double gap,
-                  const run::CaseResult& result) {
+Finding judge_gap(const StudyCase& input, double gap, const run::CaseResult& result) {
   const MechanicsResult& mechanics = result.mechanics;
   Finding finding{Outcome::caught, run::to_string(mechanics.status) + ", " + mechanics.reason};
   if (mechanics.status == run::RunStatus::completed)
-    finding = judge_burn(asked, input.scene.scene, gap, result);
+    finding = judge_burn(input.scene.scene, gap, result);
   else if (mechanics.reason.empty())
     finding = {Outcome::wrong, "broke off without a reason"};
   finding.text = fmt::format("through ignition at {:.6g} cm: {}", 100.0 * gap, finding.text);
@@ -110,10 +108,10 @@ StressRun run_from(const StudyFile& study, std::size_t index, std::vector<Finish
     runs.front().expected = asked.run == index && asked.expects(run.findings.front().outcome);
     return run;
   }
-  run.violations = violations_of({scene, mechanics, asked.gaps}, asked);
+  run.violations = violations_of({scene, mechanics, asked.gaps});
   run.reserves = reserves_of(scene, mechanics, run.answer);
   for (std::size_t i = 1; i < begun; ++i)
-    run.findings.push_back(judge_gap(asked, study.cases[index], scene.surface.gaps[i - 1], runs[i].result));
+    run.findings.push_back(judge_gap(study.cases[index], scene.surface.gaps[i - 1], runs[i].result));
   return run;
 }
 
@@ -122,7 +120,7 @@ StressRun run_from(const StudyFile& study, std::size_t index, std::vector<Finish
 /// Of a launch that completed. `compared`: there is nothing to compare with, or it completed.
 Finding judge_launch(const StressCaseRow& row, const StressRun& run, bool compared) {
   Sentences faults = run.violations, numbers;
-  const bool checked = compared && !row.deviations.empty() && row.asked.has("same-temperature");
+  const bool checked = compared && !row.deviations.empty();
   bool wrong = false;
   for (std::size_t i = 0; i < row.answer.verdicts.size(); ++i) {
     const GapVerdict& gap = row.answer.verdicts[i];
@@ -173,7 +171,7 @@ StressCaseRow judge(const StressCase& asked, const StressRun& run, const StressR
   return row;
 }
 
-// --- tables, picture and page ---
+// --- tables and page ---
 
 /// "held", "degraded", "caught", "WRONG", or "not computed".
 std::string outcome_text(const StressCaseRow& row) {
@@ -188,13 +186,6 @@ std::string expected_text(const StressCase& asked) {
   const auto text = [](Outcome outcome) { return to_string(outcome); };
   return asked.expected.empty() ? "not WRONG"
                                 : fmt::format("{}", fmt::join(of_each(asked.expected, text), " or "));
-}
-
-std::string invariants_text(const StressCase& asked) {
-  const auto name = [](std::size_t place) { return all_invariants()[place].name; };
-  return asked.invariants == places_of_all_invariants()
-             ? "all"
-             : fmt::format("{}", fmt::join(of_each(asked.invariants, name), " "));
 }
 
 /// A case, and one of its gaps where there is one.
@@ -212,7 +203,6 @@ const Quantities<StressCaseRow> stress_case_quantities{
     {"outcome", "outcome", text(), "held, degraded, caught, WRONG, or not computed.", outcome_text},
     {"expected", "expected", text(), "What the study expects.", &StressCaseRow::asked, expected_text},
     {"as_expected", "as expected", text(), "Whether it came out so.", &StressCaseRow::is_as_expected},
-    {"invariants", "invariants", text(), "What must hold.", &StressCaseRow::asked, invariants_text},
     {"finding", "finding", text(), "Why it came out so, and the numbers behind it.", finding_text}};
 
 /// What there is to say of a case and of one of its gaps, which may have none of the numbers.
@@ -263,41 +253,6 @@ std::size_t count_missing(const StabilityResult& result) {
 
 constexpr Outcome all_outcomes[] = {Outcome::held, Outcome::degraded, Outcome::caught, Outcome::wrong};
 
-/// How many cases of every group came out how: a bar of parts, the largest group on top.
-Plot outcome_plot(const StabilityResult& result) {
-  constexpr int green = 2, orange = 4, blue = 0, black = 6;
-  constexpr int colours[] = {green, orange, blue, black};
-  constexpr const char* meanings[] = {"", ": in doubt, and the result says so", ": stopped or refused",
-                                      ": a false verdict"};
-  Plot plot;
-  plot.x = {.label = "cases", .minimum = 0.0};
-  std::map<std::string, double> sizes, places, ends;
-  std::map<std::pair<std::string, Outcome>, double> cases;
-  for (const StressCaseRow& row : result.rows) {
-    sizes[row.asked.group] += row.computed() ? 1 : 0;
-    if (row.computed()) ++cases[{row.asked.group, row.finding.outcome}];
-  }
-  std::multimap<double, std::string, std::greater<>> by_size;
-  for (const auto& [group, size] : sizes) by_size.emplace(size, group);
-  for (const auto& [size, group] : by_size) {
-    plot.y.tics.push_back({-static_cast<double>(places.size()), group});
-    places[group] = plot.y.tics.back().at;
-  }
-  for (const Outcome outcome : all_outcomes) {
-    const std::string label = fmt::format("{} {}", result.count(outcome), to_string(outcome));
-    plot.title += (plot.title.empty() ? "" : ", ") + label;
-    const std::size_t index = static_cast<std::size_t>(outcome);
-    Series& series = plot.series.emplace_back(
-        Series{.label = label + meanings[index], .style = Style::filled_bars, .colour = colours[index]});
-    for (const auto& [group, place] : places) {
-      const double count = cases[{group, outcome}], end = ends[group] + count;
-      if (count > 0) series.add(end, place, std::exchange(ends[group], end), end);
-    }
-  }
-  plot.title = fmt::format("Of {} stress cases {}", result.rows.size(), plot.title);
-  return plot;
-}
-
 std::string legend(const Study& study) {
   Row invariants = Row::array();
   for (const Invariant& each : all_invariants())
@@ -337,11 +292,6 @@ Table not_held_table(const StabilityResult& result) {
 }
 
 }  // namespace
-
-bool StressCase::has(std::string_view invariant) const {
-  return std::ranges::any_of(invariants,
-                             [invariant](std::size_t i) { return all_invariants()[i].name == invariant; });
-}
 
 bool StressCase::expects(Outcome outcome) const {
   if (outcome == Outcome::wrong) return false;
@@ -389,7 +339,6 @@ std::string answer(const StabilityResult& result) {
 Report report_of(const StabilityResult& result) {
   Report report{result.study.study.title, answer(result), report::remaking_command(result.study)};
   report.items = {
-      Picture{"outcomes.svg", outcome_plot(result), "How many cases of every group came out how"},
       ReportTable{not_held_table(result)},
       report::Statement{"All cases with their numbers: `stability.csv`.\n"},
       ReportTable{stability_table(result), "stability.csv", "cases", Shown::file},

@@ -17,8 +17,6 @@ const std::vector<Key<StressCase>> case_keys{
              "stability/thin_shell.toml", &StressCase::scene),
     words_key("expect", Standing::input, "Outcomes that are expected; anything but WRONG if absent.",
               {"held", "degraded", "caught"}, &StressCase::expected),
-    words_key("invariants", Standing::input, "What must hold; all if absent.",
-              of_each(all_invariants(), &Invariant::name), &StressCase::invariants),
     text_key("refused", Standing::input,
              "What the reader must say of the scene: then the case is one of the reader, and nothing runs.",
              "at least 0", &StressCase::refused),
@@ -89,7 +87,7 @@ std::size_t add_run(const CaseReader& reader, const std::string& label, SceneFil
 
 /// A case of the reader has no run.
 void read_refusal(CaseReader& reader, const Changed& changed) {
-  for (const char* key : {"against", "expect", "invariants", "caught_within"})
+  for (const char* key : {"against", "expect", "caught_within"})
     if (reader.table.contains(key))
       reader.refuse(key, "a key of a case that runs", "refused alone: a case of the reader has no run");
   reader.launch.expected = {Outcome::caught};
@@ -112,12 +110,7 @@ void read_runs(CaseReader& reader, const SceneFile& scene) {
   launch.run = add_run(reader, launch.label(), std::move(own));
   const bool of_case = reader.table.contains("against");
   const toml::node* against = (of_case ? reader.table : reader.group).get("against");
-  if (!against || (against->is_table() && against->as_table()->empty())) {
-    if (launch.invariants != places_of_all_invariants() && launch.has("same-temperature"))
-      reader.refuse("invariants", "same-temperature, without a safe computation to compare with",
-                    "same-temperature beside keys of `against`");
-    return;
-  }
+  if (!against || (against->is_table() && against->as_table()->empty())) return;
   SceneFile safe =
       taken(with_keys(scene, {{of_case ? "group.cases.against" : "group.against", against}}, study.file));
   // A safe computation of the launch alone.
@@ -134,8 +127,6 @@ void read_case(CaseReader reader) {
   if (std::ranges::count(others, launch.label(), &StressCase::label) > 0)
     reader.refuse("name", fmt::format("\"{}\" a second time in \"{}\"", launch.name, launch.group),
                   "a name that no other case of the group has");
-  if (launch.invariants.empty())
-    reader.refuse("invariants", "none, so that nothing could be WRONG", "at least one; all if absent");
   const Changed changed =
       with_keys(starting_scene(reader),
                 {{"group.set", reader.group.get("set")}, {"group.cases.set", reader.table.get("set")}}, file);
@@ -199,7 +190,6 @@ Kind stability_kind() {
       .tables = {study_table_of("group", case_keys)},
       .make_cases = make_stability_cases,
       .run = outcome_of<run_stability, stability_failures>,
-      .files = {"outcomes.svg"},
       .results = stability_results,
   };
 }

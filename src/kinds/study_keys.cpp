@@ -13,25 +13,25 @@ Key<Study> study_number(std::string name, Dimension dimension, Limits limits, st
 constexpr const char *value_part = ".value", *because_part = ".because";
 
 /// The source of an uncertainty that is stated by hand; it is read after the value.
-Key<Study> because_key(const std::string& name, double Study::*member, double assumed) {
+Key<Study> because_key(const std::string& name, double Study::*member, double least) {
   Key<Study> key{keys::description(name + because_part, scene::KeyKind::text, Standing::input,
                                    "Where that comes from, in words; told beside verdicts.")};
   key.example = "mesh study of this shell, 2.5 and 1.25 mm";
   key.set = [=](Study& study, const Value& value) {
-    study.stated.push_back({name, study.*member, std::get<std::string>(value), assumed});
+    study.stated.push_back({name, study.*member, std::get<std::string>(value), least});
   };
   key.get = [](const Study&) { return Value(std::string{}); };
   return key;
 }
 
-/// Of a temperature, K: NAME = { value = "1 K", because = "..." }. `assumed`: K, at the least, without it.
+/// Of a temperature, K: NAME = { value = "1 K", because = "..." }. `least`: K, at the least, without it.
 StudyKeys stated_uncertainty(const std::string& name, std::string sentence, double Study::*member,
-                             double assumed = study::not_a_number) {
+                             double least = study::not_a_number) {
   return {study_number(name + value_part, Dimension::temperature_difference, between(0, 1000),
                        std::move(sentence), member) |
               plausibly(between(1, 1000),
                         "no published temperature is met, and no mesh known to be exact, to a kelvin"),
-          because_key(name, member, assumed)};
+          because_key(name, member, least)};
 }
 
 /// The uncertainties that are stated by hand among some keys.
@@ -115,12 +115,6 @@ void check_references(const StudyFile& study) {
       if (std::abs(references[i].gap - references[j].gap) <= 1e-9)
         refuse_at(study, fmt::format("reference.{}.gap", i),
                   format_quantity(references[i].gap, Dimension::length) + " twice", "each gap once");
-  const study::ReferenceLine& line = study.study.reference_line;
-  if (std::isnan(line.slope) == std::isnan(line.intercept)) return;
-  const bool slope = !std::isnan(line.slope);
-  refuse_at(study, slope ? "reference_line.slope" : "reference_line.intercept",
-            slope ? "a slope without an intercept" : "an intercept without a slope",
-            "both reference_line.slope and reference_line.intercept");
 }
 
 }  // namespace
@@ -134,9 +128,6 @@ const StudyKeys& common_keys() {
       text_key("scene", Standing::input, "Path of the scene from the study file's folder.",
                "scene_155mm.toml", &Study::scene) |
           required(),
-      flag_key("demonstration", Standing::input,
-               "True where the shell or its launch is invented: every verdict and every page says so.",
-               &Study::demonstration),
       study_number("early_time", Dimension::time, above_to(0, 1),
                    "An instant at which temperatures are listed and compared too.", &Study::early_time),
   };
@@ -219,13 +210,6 @@ StudyKeys reference_keys() {
       text_key("references", Standing::input,
                "Path of a file that holds the published rows, [[reference]], from the study file's folder.",
                "table8.toml", &Study::references_file),
-      number_key<Study>(
-          "reference_line.slope", Dimension::number, any_number(), Standing::paper,
-          "Slope of a published line of maximum temperature against gap, K per cm.",
-          [](auto& s) -> auto& { return s.reference_line.slope; }),
-      number_key<Study>(
-          "reference_line.intercept", Dimension::temperature, at_least(0), Standing::paper,
-          "Its value at gap 0.", [](auto& s) -> auto& { return s.reference_line.intercept; }),
   };
 }
 
@@ -238,8 +222,6 @@ std::string default_text(const KeyDescription& key, const Value& value) {
 }
 
 StudyTable reference_table() { return study_table_of("reference", published_row_keys); }
-
-StudyTable cited_limit_table() { return study_table_of("cited_limit", study::cited_limit_keys()); }
 
 void check_bare_uncertainties(const toml::table& root, const StudyKeys& keys, const std::string& file) {
   for (const std::string& name : uncertainties_in(keys)) {
@@ -271,17 +253,6 @@ void read_references(const StudySource& source, StudyFile& study) {
   study::read_rows(source.root, "reference", published_row_keys, study.file, study, study.study.references);
   read_shared_references(source, study);
   check_references(study);
-}
-
-Expected<std::vector<Reference>> read_references(const std::filesystem::path& file) {
-  // A study's file would be told by its path from the study's folder.
-  if (const auto text = scene::read_text_file(file); !text) return text.error();
-  return scene::caught([&] {
-    StudyFile study;
-    study.study.references_file = file.string();
-    read_references({toml::table(), {}, {}, {}}, study);
-    return study.study.references;
-  });
 }
 
 }  // namespace launchsafe::kinds

@@ -168,8 +168,7 @@ using study::Change, study::Leaf;
 
 using StudyKeys = std::vector<Key<Study>>;
 
-// Readers of study files throw what is wrong; `read_study_table` and `read_references` give it back as a
-// value.
+// Readers of study files throw what is wrong; `read_study_table` gives it back as a value.
 
 /// What was read, or else refused; `table`: of the study file, in which it stands.
 template <class Read>
@@ -217,7 +216,7 @@ StudyTable study_table_of(const std::string& name, const std::vector<Key<Owner>>
   return table;
 }
 
-StudyTable reference_table(), cited_limit_table(), vary_table();
+StudyTable reference_table(), vary_table();
 
 /// Reads [[reference]], or the file that holds them, into Study::references.
 void read_references(const StudySource& source, StudyFile& study);
@@ -229,10 +228,10 @@ struct OverrideTable {
   const toml::node* node = nullptr;
 };
 
-/// The changes that a table asks of a scene, which gets the notes on them; or what is wrong with a value. A
-/// key that the scene does not know is refused in any case. `written`: how the table is written.
+/// The changes that a table asks of a scene, or what is wrong with a value. A key that the scene does not
+/// know is refused in any case. `written`: how the table is written.
 Expected<std::vector<Change>> changes_in(const OverrideTable& table, const std::string& file,
-                                         const std::string& written, SceneFile& scene);
+                                         const std::string& written, const SceneFile& scene);
 
 /// kinds::read_study of a table; `file` is named in errors.
 Expected<StudyFile> read_study_table(const StudySource& source, const std::string& file,

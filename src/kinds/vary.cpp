@@ -1,5 +1,5 @@
-// [[vary]]: what the cases of a study differ in. Every entry has a key of the scene with values, with a range
-// and a count, or with a distribution; or a calibration whose constants vary together.
+// [[vary]]: what the cases of a study differ in. Every entry has a key of the scene with values, or with a
+// distribution; or a calibration whose constants vary together.
 #include "launchsafe/kinds/sensitivity.hpp"
 #include "study_keys.hpp"
 
@@ -14,7 +14,6 @@ struct VaryText {
   std::string name;
   KeyDescription key;          ///< of the scene
   std::vector<double> values;  ///< SI
-  int count = 0;               ///< values in the range
   /// SI; what is not given is infinite or NaN. `range` is its lower and upper end.
   math::Distribution distribution{math::Distribution::Kind::uniform, -std::numeric_limits<double>::infinity(),
                                   std::numeric_limits<double>::infinity(), not_a_number, not_a_number};
@@ -48,9 +47,7 @@ std::vector<Key<VaryText>> vary_keys(const KeyDescription& scene_key) {
             required(),
         list_key("values", scene_key.dimension, scene_key.limits, Standing::input,
                  "Its values, in a unit of the key; every combination with other keys is a case.",
-                 &VaryText::values),
-        number_key("count", Dimension::count, between(2, 1e6), Standing::input,
-                   "Instead of values: how many, evenly spaced over the range.", &VaryText::count)},
+                 &VaryText::values)},
        keys::keys_of_part("", &VaryText::distribution, distribution_keys(scene_key))});
 }
 
@@ -170,26 +167,12 @@ KeyDescription read_scene_key(VaryReader& reader, const Varied& admitted) {
   return key;
 }
 
-/// The values of an entry without a distribution: those that it lists, or so many in a range, evenly spaced.
-void settle_values(VaryReader& reader) {
-  VaryText& text = reader.text;
-  for (const char* key : {"distribution", "mean", "deviation"})
+/// An entry without a distribution lists its values.
+void check_values(const VaryReader& reader) {
+  for (const char* key : {"distribution", "range", "mean", "deviation"})
     if (reader.given(key))
-      reader.refuse(key, "a distribution in a study of kind " + reader.study.study.kind.name,
-                    "values, or a range with a count");
-  if (reader.given("values")) {
-    for (const char* key : {"range", "count"})
-      if (reader.given(key))
-        reader.refuse(key, std::string(key) + " beside values", "values, or a range with a count");
-    return;
-  }
-  if (!reader.given("range")) reader.need("values", "an entry without a range");
-  reader.need("count", "a range without a distribution");
-  text.values = study::spaced_values(text.distribution.lower, text.distribution.upper, text.count);
-  for (const double value : text.values)
-    if (text.key.dimension == Dimension::count && value != std::round(value))
-      reader.refuse("count", fmt::format("{} values, one of which is {:g}", text.count, value),
-                    "a count that leaves whole numbers");
+      reader.refuse(key, "a distribution in a study of kind " + reader.study.study.kind.name, "values");
+  reader.need("values", "an entry of this kind");
 }
 
 void read_entry(VaryReader& reader, const Varied& admitted) {
@@ -200,17 +183,15 @@ void read_entry(VaryReader& reader, const Varied& admitted) {
   check_free(reader.study, key.name, reader.place_of("key"), "vary.key");
   Axis axis{study::name_of_axis(key.name), reader.study_key("key"), key, {}};
   if (admitted.distributions) {
-    for (const char* given : {"values", "count"})
-      if (reader.given(given))
-        reader.refuse(given, std::string(given) + " in a study of kind " + reader.study.study.kind.name,
-                      "a distribution");
+    if (reader.given("values"))
+      reader.refuse("values", "values in a study of kind " + reader.study.study.kind.name, "a distribution");
     reader.need("distribution", "an entry of this kind");
     check_distribution(reader);
     axis.distribution = reader.text.distribution;
     axis.values_key = reader.study_key(reader.given("range") ? "range" : "deviation");
   } else {
-    settle_values(reader);
-    axis.values_key = reader.study_key(reader.given("values") ? "values" : "range");
+    check_values(reader);
+    axis.values_key = reader.study_key("values");
     check_twice(reader.study, axis.values_key, key.dimension, reader.text.values);
     axis.values = std::move(reader.text.values);
   }

@@ -8,23 +8,6 @@ using keys::above_to, keys::ActsOn, keys::between, keys::Dimension, keys::Hotter
 
 namespace {
 
-/// Whenever a number of the kinetics changes, their name follows.
-void rename(KineticsParameters& kinetics) { kinetics.name = name_of(kinetics); }
-
-Key<ViscoScramParameters> crack_friction_key() {
-  return keys::bound_key<ViscoScramParameters>(
-      {.name = "crack_friction",
-       .kind = KeyKind::flag,
-       .standing = Standing::literature,
-       .sentence = "Friction between closed crack faces; false is face_friction = 0."},
-      &ViscoScramParameters::face_friction,
-      [](double& friction, const Value& value) {
-        if (!std::get<bool>(value)) friction = 0.0;
-        if (std::get<bool>(value) && friction == 0.0) friction = ViscoScramParameters{}.face_friction;
-      },
-      [](double friction) { return friction > 0.0; });
-}
-
 std::vector<Key<ViscoScramParameters>> crack_keys() {
   return {
       number_key("crack_radius", Dimension::length, between(0, 1), Standing::paper,
@@ -59,11 +42,8 @@ std::vector<Key<ViscoScramParameters>> crack_keys() {
                  "Friction coefficient mu_s of closed crack faces, which raises the "
                  "toughness; 0 leaves it out.",
                  &ViscoScramParameters::face_friction) |
-          overriding({"crack_friction"}) |
           plausibly(between(0, 0.8), "dry crystals rub with 0.3 to 0.6; 0 holds no crack back",
                     keys::of_model),
-      crack_friction_key() | overriding({"face_friction"}) |
-          always_plausible("without it cracks grow sooner", keys::of_model),
       list_key("shear_moduli", Dimension::pressure, above_to(0, 1e12), Standing::paper,
                "Shear moduli G_n of the Maxwell elements.", &ViscoScramParameters::shear_moduli,
                maxwell_elements) |
@@ -128,40 +108,17 @@ std::vector<Key<Charge>> heat_keys() {
   };
 }
 
-/// A named set of kinetics, and what is its own in it.
-Key<KineticsParameters> kinetics_set_key() {
-  return keys::bound_key<KineticsParameters>(
-      {.name = "set",
-       .kind = KeyKind::word,
-       .words = {"comp-b", "printed", "custom"},
-       .standing = Standing::calibrated,
-       .sentence = "Named decomposition kinetics: activation temperature 21700 K (comp-b) or 27000 K as "
-                   "printed; custom says that the keys below make their own."},
-      std::identity{},
-      [](KineticsParameters& kinetics, const Value& value) {
-        const KineticsParameters named = named_kinetics(std::get<std::string>(value));
-        kinetics.name = named.name;
-        kinetics.heat_of_reaction = named.heat_of_reaction;
-        kinetics.frequency = named.frequency;
-        kinetics.activation_temperature = named.activation_temperature;
-      },
-      [](const KineticsParameters& kinetics) { return kinetics.name; });
-}
-
 std::vector<Key<KineticsParameters>> kinetics_keys() {
   return {
-      kinetics_set_key() | overriding({"heat_of_reaction", "frequency", "activation_temperature"}) |
-          always_plausible("the numbers that it stands for are judged", Role{ActsOn::chemistry, Part::free}),
       number_key("heat_of_reaction", Dimension::specific_energy, between(0, 1e8), Standing::paper,
                  "Heat Q that the reaction releases.", &KineticsParameters::heat_of_reaction) |
-          then(rename) | plausibly(between(1e6, 1e7), "explosives release 2 to 7 MJ/kg"),
+          plausibly(between(1e6, 1e7), "explosives release 2 to 7 MJ/kg"),
       number_key("frequency", Dimension::frequency, between(0, 1e30), Standing::paper,
                  "Frequency factor Z of the Arrhenius law.", &KineticsParameters::frequency) |
-          then(rename) | plausibly(between(1e10, 1e24), "explosives are fitted with 1e11 to 1e20 1/s"),
+          plausibly(between(1e10, 1e24), "explosives are fitted with 1e11 to 1e20 1/s"),
       number_key("activation_temperature", Dimension::temperature_difference, above_to(0, 1e6),
                  Standing::calibrated, "Activation energy over the gas constant, E/R.",
                  &KineticsParameters::activation_temperature) |
-          then(rename) |
           plausibly(between(1.2e4, 3.2e4), "explosives are fitted with 25 to 60 kcal/mol",
                     Role{ActsOn::chemistry, Part::constant, Hotter::below}),
       number_key("ignition_temperature", Dimension::temperature, above_to(0, 2e3), Standing::calibrated,

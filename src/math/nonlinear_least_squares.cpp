@@ -101,17 +101,4 @@ NonlinearFit fit_nonlinear(const ResidualsAtPoints& residuals, const std::vector
   return fit;
 }
 
-std::optional<AddedUnknown> add_unknown(const NonlinearFit& fit, const std::vector<double>& column) {
-  std::vector<std::vector<double>> rows = fit.jacobian;
-  std::vector<double> wanted;
-  for (std::size_t i = 0; i < rows.size(); ++i) {
-    rows[i].push_back(column[i]);
-    wanted.push_back(-fit.residuals[i]);
-  }
-  const auto linear = least_squares(rows, wanted), without = least_squares(fit.jacobian, wanted);
-  if (!linear || !without) return std::nullopt;
-  return AddedUnknown{linear->coefficients.back(),
-                      sum_of_squares(without->residuals) - sum_of_squares(linear->residuals)};
-}
-
 }  // namespace launchsafe::math

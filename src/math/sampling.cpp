@@ -7,7 +7,6 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
-#include <numeric>
 #include <utility>
 
 namespace launchsafe::math {
@@ -72,36 +71,6 @@ std::uint64_t nested_scramble(std::uint32_t digits, std::uint64_t key) {
   std::uint64_t flips = 0;
   for (std::uint64_t bit = 0; bit < 32; ++bit) flips |= hashed(key, leaf >> (bit + 1)) >> 63 << bit;
   return ((digits ^ flips) << 32) | (hashed(key, leaf) >> 32);
-}
-
-void fill_monte_carlo(std::vector<double>& values, std::size_t dimensions, std::uint64_t seed) {
-  for (std::size_t k = 0; k < values.size(); ++k)
-    values[k] = open_unit(hashed(hashed(seed, k % dimensions), k / dimensions));
-}
-
-void fill_latin_hypercube(std::vector<double>& values, std::size_t dimensions, std::uint64_t seed) {
-  const std::size_t points = values.size() / dimensions;
-  std::vector<std::uint32_t> cells(points);
-  for (std::size_t dimension = 0; dimension < dimensions; ++dimension) {
-    SplitMix64 random(hashed(seed, dimension));
-    std::iota(cells.begin(), cells.end(), 0u);
-    for (std::size_t i = points; i > 1; --i) {  // Fisher and Yates
-      std::swap(cells[i - 1], cells[random.below(static_cast<std::uint32_t>(i))]);
-    }
-    for (std::size_t i = 0; i < points; ++i) {
-      // 20 bits and a half: with a cell number of 32 bits the sum is exact and stays below the next cell.
-      const double offset = (static_cast<double>(random.next() >> 44) + 0.5) * 0x1p-20;
-      values[i * dimensions + dimension] = (cells[i] + offset) / static_cast<double>(points);
-    }
-  }
-}
-
-void fill_scrambled_sobol(std::vector<double>& values, std::size_t dimensions, std::uint64_t seed) {
-  boost::random::sobol_engine<std::uint32_t, 32> sequence(dimensions);
-  for (std::size_t k = 0; k < values.size(); ++k) {
-    const std::uint32_t digits = k < dimensions ? 0u : sequence();  // Boost leaves the origin out
-    values[k] = open_unit(nested_scramble(digits, hashed(seed, k % dimensions)));
-  }
 }
 
 }  // namespace
@@ -179,14 +148,15 @@ std::uint32_t SplitMix64::below(std::uint32_t bound) {
   return static_cast<std::uint32_t>(((next() >> 32) * bound) >> 32);
 }
 
-std::vector<double> unit_points(Design design, std::size_t points, std::size_t dimensions,
-                                std::uint64_t seed) {
+std::vector<double> unit_points(std::size_t points, std::size_t dimensions, std::uint64_t seed) {
   assert(points < (std::uint64_t{1} << 32));
   std::vector<double> values(points * dimensions);
   if (values.empty()) return values;
-  if (design == Design::monte_carlo) fill_monte_carlo(values, dimensions, seed);
-  if (design == Design::latin_hypercube) fill_latin_hypercube(values, dimensions, seed);
-  if (design == Design::scrambled_sobol) fill_scrambled_sobol(values, dimensions, seed);
+  boost::random::sobol_engine<std::uint32_t, 32> sequence(dimensions);
+  for (std::size_t k = 0; k < values.size(); ++k) {
+    const std::uint32_t digits = k < dimensions ? 0u : sequence();  // Boost leaves the origin out
+    values[k] = open_unit(nested_scramble(digits, hashed(seed, k % dimensions)));
+  }
   return values;
 }
 

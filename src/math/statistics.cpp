@@ -2,7 +2,6 @@
 
 #include <Eigen/Dense>
 #include <boost/math/distributions/students_t.hpp>
-#include <boost/math/special_functions/beta.hpp>
 #include <boost/math/tools/toms748_solve.hpp>
 
 #include <algorithm>
@@ -16,22 +15,12 @@ namespace {
 
 using Eigen::Index, Eigen::MatrixXd, Eigen::VectorXd;
 
-double student_quantile(double level, int degrees_of_freedom) {
-  return boost::math::quantile(boost::math::students_t(degrees_of_freedom), 0.5 * (1.0 + level));
-}
-
 bool is_fittable(const std::vector<std::vector<double>>& rows, const std::vector<double>& y) {
   if (rows.empty() || rows.size() != y.size() || rows.front().empty() || !all_finite(y)) return false;
   const std::size_t width = rows.front().size();
   return rows.size() >= width && std::ranges::all_of(rows, [&](const std::vector<double>& row) {
            return row.size() == width && all_finite(row);
          });
-}
-
-/// Share of the variance about the mean that the fit explains; 1 for data without variance.
-double explained_share(const std::vector<double>& y, double residual_sum) {
-  const double total = moments_of(y).squares;
-  return total > 0.0 ? 1.0 - residual_sum / total : 1.0;
 }
 
 /// The order p > 0 of the power law through three values, whose (r31^p - 1)/(r21^p - 1) grows with p; NaN
@@ -70,16 +59,6 @@ double LeastSquares::at(const std::vector<double>& row) const {
   return std::inner_product(coefficients.begin(), coefficients.end(), row.begin(), 0.0);
 }
 
-double LeastSquares::leverage(const std::vector<double>& row) const {
-  const auto x = VectorXd::Map(row.data(), static_cast<Index>(row.size()));
-  return x.dot(MatrixXd::Map(inverse_normal.data(), x.size(), x.size()) * x);
-}
-
-double LeastSquares::prediction_half_width(const std::vector<double>& row, double level) const {
-  if (degrees_of_freedom < 1) return not_a_number;
-  return student_quantile(level, degrees_of_freedom) * residual_deviation * std::sqrt(1.0 + leverage(row));
-}
-
 std::optional<LeastSquares> least_squares(const std::vector<std::vector<double>>& rows,
                                           const std::vector<double>& y) {
   if (!is_fittable(rows, y)) return std::nullopt;
@@ -104,34 +83,18 @@ std::optional<LeastSquares> least_squares(const std::vector<std::vector<double>>
   const double residual_sum = residuals.squaredNorm();
   fit.residual_deviation =
       fit.degrees_of_freedom > 0 ? std::sqrt(residual_sum / fit.degrees_of_freedom) : not_a_number;
-  fit.r_squared = explained_share(y, residual_sum);
-  for (Index k = 0; k < width; ++k)
-    fit.standard_errors.push_back(fit.residual_deviation * std::sqrt(inverse(k, k)));
   return fit;
-}
-
-std::vector<double> polynomial_row(double x, int degree) {
-  std::vector<double> row{1.0};
-  for (int k = 0; k < degree; ++k) row.push_back(row.back() * x);
-  return row;
 }
 
 std::optional<LeastSquares> fit_line(const std::vector<double>& x, const std::vector<double>& y) {
   std::vector<std::vector<double>> rows;
-  for (const double value : x) rows.push_back(polynomial_row(value, 1));
+  for (const double value : x) rows.push_back({1.0, value});
   return least_squares(rows, y);
 }
 
 double one_sided_student_factor(int n, double level) {
   if (n < 1 || !(level > 0.0 && level < 1.0)) return not_a_number;
   return boost::math::quantile(boost::math::students_t(n), level);
-}
-
-Interval clopper_pearson(std::size_t count, std::size_t trials, double level) {
-  const double k = static_cast<double>(count), rest = static_cast<double>(trials - count);
-  const double tail = 0.5 * (1.0 - level);
-  return {count == 0 ? 0.0 : boost::math::ibeta_inv(k, rest + 1.0, tail),
-          count == trials ? 1.0 : boost::math::ibetac_inv(k + 1.0, rest, tail)};
 }
 
 std::optional<GridConvergence> grid_convergence(const std::array<double, 3>& values,

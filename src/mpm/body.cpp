@@ -48,8 +48,7 @@ ParticleFields make_kinematics(const scene::Scene& scene, int index, double dens
       const std::size_t slot = lattice.slot(i, j);
       p.x[slot] = lattice.x_of(i);
       p.r[slot] = lattice.r_of(j);
-      const double radial_weight = scene.symmetry == scene::Symmetry::axisymmetric ? p.r[slot] : 1.0;
-      p.mass[slot] = density * radial_weight * lattice.length_x(i) * lattice.length_r(j);
+      p.mass[slot] = density * p.r[slot] * lattice.length_x(i) * lattice.length_r(j);
       p.inertia_x[slot] = p.inertia_r[slot] = inertial_factor * p.mass[slot];
     }
   return p;
@@ -94,12 +93,12 @@ const ParticleFields& particle_fields_of(const AnyBody& body) {
   return std::visit([](const auto& each) -> const ParticleFields& { return each.particles; }, body);
 }
 
-double mass_of(const ParticleFields& particles, scene::Symmetry symmetry) {
+double mass_of(const ParticleFields& particles) {
   const auto row_length = static_cast<std::ptrdiff_t>(particles.lattice.padded_columns);
   double total = 0.0;  // row by row: adding many equal masses to one large sum loses digits
   for (auto row = particles.mass.begin(); row != particles.mass.end(); row += row_length)
     total += std::accumulate(row, row + row_length, 0.0);
-  return symmetry == scene::Symmetry::axisymmetric ? 2.0 * std::numbers::pi * total : total;
+  return 2.0 * std::numbers::pi * total;
 }
 
 }  // namespace launchsafe::mpm

@@ -38,8 +38,7 @@ Eigen::VectorXd solve(const Eigen::SparseMatrix<double>& system, const Eigen::Ve
 /// Collects the links between particles into a symmetric matrix whose rows sum to 0.
 class Network {
  public:
-  Network(const scene::Scene& scene, const std::vector<AnyBody>& bodies)
-      : axisymmetric_(scene.symmetry == scene::Symmetry::axisymmetric) {
+  Network(const scene::Scene& scene, const std::vector<AnyBody>& bodies) {
     const scene::Extent extent = scene::extent_of(scene);
     tolerance_ = coincidence * std::max(extent.x_end - extent.x_begin, extent.r_end);
     Eigen::Index first = 0;
@@ -69,11 +68,10 @@ class Network {
     }
   };
 
-  /// Areas (m2 per radian or metre) across x, of the ring between two radii, and across r.
-  double axial_area(double r_begin, double r_end) const {
-    return axisymmetric_ ? 0.5 * (r_end - r_begin) * (r_end + r_begin) : r_end - r_begin;
+  /// Area (m2 per radian) across x between two radii.
+  static double axial_area(double r_begin, double r_end) {
+    return 0.5 * (r_end - r_begin) * (r_end + r_begin);
   }
-  double radial_area(double r, double length) const { return axisymmetric_ ? r * length : length; }
 
   void link(Eigen::Index a, Eigen::Index b, double conductance) {
     entries_.emplace_back(a, a, conductance);
@@ -93,7 +91,7 @@ class Network {
                part.conductivity * axial_area(l.r_edges[row], r_end) / (l.x_of(i + 1) - l.x_of(i)));
         if (j + 1 < l.rows())
           link(part.number(i, j), part.number(i, j + 1),
-               part.conductivity * radial_area(r_end, l.length_x(i)) / (l.r_of(j + 1) - l.r_of(j)));
+               part.conductivity * (r_end * l.length_x(i)) / (l.r_of(j + 1) - l.r_of(j)));
       }
   }
 
@@ -128,11 +126,10 @@ class Network {
     const double resistance =
         0.5 * (la.length_r(la.rows() - 1) / a.conductivity + lb.length_r(0) / b.conductivity);
     for_each_overlap(la.x_edges, lb.x_edges, [&](int ia, int ib, double begin, double end) {
-      link(a.number(ia, la.rows() - 1), b.number(ib, 0), radial_area(lb.r_begin(), end - begin) / resistance);
+      link(a.number(ia, la.rows() - 1), b.number(ib, 0), lb.r_begin() * (end - begin) / resistance);
     });
   }
 
-  bool axisymmetric_;
   double tolerance_ = 0;
   std::vector<Part> parts_;
   std::vector<Eigen::Triplet<double>> entries_;

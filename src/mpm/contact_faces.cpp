@@ -101,9 +101,7 @@ void Contact::add_face(const scene::Scene& scene, const scene::GridLines& lines,
   face.interface = static_cast<std::size_t>(&law - scene.interfaces.data());
   face.along_x = runs_along_x(side);
   face.outward = side == Side::x_end || side == Side::r_end ? 1.0 : -1.0;
-  face.measure = scene.symmetry == scene::Symmetry::plane_strain ? FaceMeasure::unit_depth
-                 : face.along_x                                  ? FaceMeasure::radius_across
-                                                                 : FaceMeasure::radius_along;
+  face.measure = face.along_x ? FaceMeasure::radius_across : FaceMeasure::radius_along;
   face.first_row = rows_.size();
   face.own = face_side(lines, nodes, ties, own, side);
   face.other = face_side(lines, nodes, ties, other, opposite(side));
@@ -149,7 +147,7 @@ void Contact::set_row(const Face& face, std::size_t node, const PairRow& paired,
     row.normal = row.slide = row.normal_inertia = row.slide_inertia = 0.0;
     return;
   }
-  // Where a node is held along r, by symmetry or by the barrel, the face runs along a line of the grid.
+  // Where a node is held along r, on the axis or by the barrel, the face runs along a line of the grid.
   const auto held = [&](const FaceSide& side, const PairShare& each) {
     return !(unconstrained_.r(side.points[each.node]) > 0.0);
   };
@@ -203,7 +201,7 @@ constexpr double least_piece = 1e-9, least_share = 1e-12;
 struct FaceCell {
   std::size_t first;                  ///< node at its begin
   double begin, end;                  ///< m, along
-  double measure[2];                  ///< m or 1: the radius at both ends
+  double measure[2];                  ///< m, the radius at both ends
   double covered_begin, covered_end;  ///< m, the part that the other face meets
   bool whole;                         ///< the other face meets all of it
   int keeper;                         ///< where not whole: the end (0 or 1) whose node takes all traction
@@ -214,7 +212,6 @@ struct FaceCell {
 };
 
 double measure_at_node(const FaceLine& line, std::size_t node, FaceMeasure measure) {
-  if (measure == FaceMeasure::unit_depth) return 1.0;
   return measure == FaceMeasure::radius_across ? line.across[node] : line.along[node];
 }
 

@@ -64,7 +64,6 @@ Nodes make_nodes(const scene::Scene& scene, const scene::GridLines& lines, int i
   const double outer = scene::extent_of(scene).r_end;
   for (int j = 0; j < n.rows; ++j) {
     const double r = lines.r[static_cast<std::size_t>(n.first_r + j)];
-    // In plane strain the half model's plane of symmetry takes the axis' place.
     const bool held = !(r > 0.0) || (scene.barrel == scene::Barrel::rigid && !(r < outer));
     if (!held)
       std::fill_n(n.radially_free.begin() + static_cast<std::ptrdiff_t>(n.index(0, j)), n.columns, 1.0);

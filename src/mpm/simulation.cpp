@@ -12,7 +12,7 @@ auto with(Form& form, F&& f) {
 
 }  // namespace
 
-Simulation::Simulation(scene::Scene scene, int threads)
+Simulation::Simulation(scene::Scene scene)
     : scene_(std::move(scene)), load_(scene_.load), pressure_(load_.at(0.0)) {
   for (std::size_t i = 0; i < scene_.bodies.size(); ++i)
     bodies_.push_back(make_body(scene_, static_cast<int>(i)));
@@ -26,31 +26,14 @@ Simulation::Simulation(scene::Scene scene, int threads)
     if (!face.across_x()) continue;
     const Lattice& lattice = particle_fields_of(bodies_[face.body]).lattice;
     for (int j = 0; j < lattice.rows(); ++j) {
-      const double r = lattice.r_of(j), area = (axisymmetric() ? r : 1.0) * lattice.length_r(j);
+      const double r = lattice.r_of(j), area = r * lattice.length_r(j);
       if (r > face.begin && r < face.end) loaded_area_ -= face.direction() * area;
     }
   }
   if (scene_.numerics.formulation == scene::Formulation::total_lagrangian)
-    form_.emplace<TotalLagrangian>(scene_, bodies_, threads);
+    form_.emplace<TotalLagrangian>(scene_, bodies_);
   else
     form_.emplace<UpdatedLagrangian>(scene_, bodies_);
-}
-
-void Simulation::continue_from(const Simulation& other) {
-  for (std::size_t i = 0; i < bodies_.size(); ++i)
-    std::visit(
-        [&]<class Law>(Body<Law>& body) {
-          const auto& from = std::get<Body<Law>>(other.bodies_[i]);
-          body.particles = from.particles;
-          body.state = from.state;
-        },
-        bodies_[i]);
-  std::get<TotalLagrangian>(form_).continue_from(std::get<TotalLagrangian>(other.form_));
-  time_ = other.time_;
-  pressure_ = load_.at(time_);
-  energy_ = other.energy_;
-  balance_ = other.balance_;
-  events_ = other.events_;
 }
 
 void Simulation::reset_grid() {
@@ -82,9 +65,7 @@ double Simulation::stable_time_step() const {
   return with(form_, [](const auto& form) { return form.stable_time_step(); });
 }
 
-double Simulation::acceleration_under(double pressure) const {
-  return scene_.frame == scene::Frame::co_moving ? pressure * loaded_area_ / total_mass_ : 0.0;
-}
+double Simulation::acceleration_under(double pressure) const { return pressure * loaded_area_ / total_mass_; }
 
 void Simulation::step(double dt) {
   balance_ = energy_;
@@ -106,13 +87,11 @@ void Simulation::add_to_energy(const StepTotals& totals, const StepInput& begin)
   const ParticleTotals& p = totals.particles;
   const NodeTotals& n = totals.nodes;
   // The motion of all as one mass takes its energy from the work on it to the last digit and says nothing of
-  // the computation; in the lab frame it would exceed all other terms by far.
+  // the computation.
   const BulkMotion& bulk = totals.bulk;
   const double bulk_velocity = bulk.momentum / bulk.inertia;
   balance_.kinetic = sum(p.centred_kinetic) - 0.5 * bulk.old_momentum * bulk_velocity;
-  const bool lab = scene_.frame == scene::Frame::lab;
-  const double bulk_flow = lab ? -loaded_area_ * bulk_velocity : 0.0;
-  energy_.external += pressure * (totals.chamber_flow - bulk_flow) * dt;
+  energy_.external += pressure * totals.chamber_flow * dt;
   energy_.body_force += acceleration * (sum(n.momentum) + totals.contact.momentum) * dt;
   energy_.internal += sum(p.internal) + sum(p.hourglass);
   energy_.hourglass += sum(p.hourglass);

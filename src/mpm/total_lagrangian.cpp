@@ -2,56 +2,31 @@
 
 #include "total_lagrangian_row.hpp"
 
-#include <chrono>
-
 namespace launchsafe::mpm {
 namespace {
 
-double radial_measure(bool axisymmetric, double r) { return axisymmetric ? r : 1.0; }
-
 /// Means over the particle's interval of the hat functions of its cell [a, b], see Nairn & Guilkey 2015.
-RowWeights row_weights(const Lattice& lattice, int j, double a, double b, bool axisymmetric) {
+RowWeights row_weights(const Lattice& lattice, int j, double a, double b) {
   const double r = lattice.r_of(j), length = lattice.length_r(j), cell = b - a;
   RowWeights w;
   w.cell_row = j / lattice.stride;
   w.inverse_length = 1.0 / cell;
-  w.value[1] = (r - a + (axisymmetric ? length * length / (12.0 * r) : 0.0)) / cell;
+  w.value[1] = (r - a + length * length / (12.0 * r)) / cell;
   w.value[0] = 1.0 - w.value[1];
-  if (axisymmetric) {
-    w.hoop[1] = (r - a) / (cell * r);
-    w.hoop[0] = (b - r) / (cell * r);
-  }
+  w.hoop[1] = (r - a) / (cell * r);
+  w.hoop[0] = (b - r) / (cell * r);
   return w;
-}
-
-/// Divides rows, in order, into one contiguous group per thread of about equal work; `work` by body.
-template <class Rows>
-std::vector<std::vector<Rows>> divided_among_threads(const std::vector<Rows>& all_rows,
-                                                     const std::vector<double>& work, int threads) {
-  double all = 0.0;
-  for (const Rows& rows : all_rows) all += work[rows.body];
-  std::vector<std::vector<Rows>> shares(static_cast<std::size_t>(threads));
-  double done = 0.0;
-  for (const Rows& rows : all_rows) {
-    const double middle = done + 0.5 * work[rows.body];
-    done += work[rows.body];
-    const auto thread = static_cast<std::size_t>(middle / all * threads);
-    shares[std::min(thread, shares.size() - 1)].push_back(rows);
-  }
-  return shares;
 }
 
 }  // namespace
 
-TotalLagrangian::TotalLagrangian(const scene::Scene& scene, std::vector<AnyBody>& bodies, int threads)
-    : scene_(scene),
-      bodies_(bodies),
-      axisymmetric_(scene.symmetry == scene::Symmetry::axisymmetric),
-      lines_(scene::grid_lines(scene)),
-      team_(std::make_unique<Team>(threads)) {
+TotalLagrangian::TotalLagrangian(const scene::Scene& scene, std::vector<AnyBody>& bodies)
+    : scene_(scene), bodies_(bodies), lines_(scene::grid_lines(scene)) {
   for (std::size_t b = 0; b < bodies.size(); ++b) {
     nodes_.push_back(make_nodes(scene, lines_, static_cast<int>(b)));
     parts_.push_back(make_part(bodies[b], nodes_[b]));
+    particle_totals_.emplace_back(parts_[b].rows.size());
+    node_totals_.emplace_back(static_cast<std::size_t>(nodes_[b].rows));
   }
   lengthen_steps();
   sum_nodal_masses();
@@ -76,7 +51,6 @@ TotalLagrangian::TotalLagrangian(const scene::Scene& scene, std::vector<AnyBody>
   // On faces at rest: steel turns and stretches too little to matter.
   for (const scene::ChamberFace& face : scene::chamber_of(scene).faces)
     face.across_x() ? load_across(face) : load_along(face);
-  share_work();
   reset_grid();
 }
 
@@ -87,7 +61,7 @@ TotalLagrangian::Part TotalLagrangian::make_part(const AnyBody& any, const Nodes
   Part part;
   for (int j = 0; j < lattice.rows(); ++j) {
     const auto line = static_cast<std::size_t>(nodes.first_r + j / lattice.stride);
-    part.rows.push_back(row_weights(lattice, j, lines_.r[line], lines_.r[line + 1], axisymmetric_));
+    part.rows.push_back(row_weights(lattice, j, lines_.r[line], lines_.r[line + 1]));
   }
   const int cells = nodes.columns - 1;
   part.inverse_length.assign(nodes.stride, 0.0);
@@ -112,26 +86,6 @@ TotalLagrangian::Part TotalLagrangian::make_part(const AnyBody& any, const Nodes
   return part;
 }
 
-void TotalLagrangian::share_work() {
-  std::vector<Rows> particle_rows, node_rows;
-  std::vector<double> particle_work, node_work;
-  for (std::size_t b = 0; b < bodies_.size(); ++b) {
-    const Lattice& lattice = particle_fields_of(bodies_[b]).lattice;
-    const double fields =
-        std::visit([](const auto& body) { return 8.0 + static_cast<double>(body.state.size()); }, bodies_[b]);
-    particle_work.push_back(fields * lattice.padded_columns);
-    node_work.push_back(static_cast<double>(nodes_[b].stride));
-    // Rows of particles in one row of cells write the same nodes and stay together.
-    for (int j = 0; j < lattice.rows(); j += lattice.stride)
-      particle_rows.push_back({b, j, j + lattice.stride});
-    for (int j = 0; j < nodes_[b].rows; ++j) node_rows.push_back({b, j, j + 1});
-    particle_totals_.emplace_back(static_cast<std::size_t>(lattice.rows()));
-    node_totals_.emplace_back(static_cast<std::size_t>(nodes_[b].rows));
-  }
-  particle_rows_ = divided_among_threads(particle_rows, particle_work, team_->threads());
-  node_rows_ = divided_among_threads(node_rows, node_work, team_->threads());
-}
-
 void TotalLagrangian::load_across(const scene::ChamberFace& face) {
   const Nodes& n = nodes_[face.body];
   const Lattice& lattice = particle_fields_of(bodies_[face.body]).lattice;
@@ -140,7 +94,7 @@ void TotalLagrangian::load_across(const scene::ChamberFace& face) {
     const double r = lattice.r_of(j);
     if (r < face.begin || r > face.end) continue;
     const RowWeights& w = parts_[face.body].rows[static_cast<std::size_t>(j)];
-    const double force = face.direction() * radial_measure(axisymmetric_, r) * lattice.length_r(j);
+    const double force = face.direction() * r * lattice.length_r(j);
     for (int k = 0; k < 2; ++k) {
       const int row = w.cell_row + k;
       axial_load_.push_back({face.body, row, n.index(column, row), force * w.value[k]});
@@ -156,16 +110,9 @@ void TotalLagrangian::load_along(const scene::ChamberFace& face) {
     const auto line = static_cast<std::size_t>(n.first_x + i);
     const double from = lines_.x[line], to = lines_.x[line + 1], middle = 0.5 * (from + to);
     if (middle < face.begin || middle > face.end) continue;
-    const double force = face.direction() * 0.5 * radial_measure(axisymmetric_, r) * (to - from);
+    const double force = face.direction() * 0.5 * r * (to - from);
     for (const int column : {i, i + 1}) radial_load_.push_back({face.body, row, n.index(column, row), force});
   }
-}
-
-void TotalLagrangian::continue_from(const TotalLagrangian& other) {
-  nodes_ = other.nodes_;
-  *contact_ = *other.contact_;
-  contact_totals_ = other.contact_totals_;
-  damped_before_ = other.damped_before_;
 }
 
 void TotalLagrangian::reset_grid() {
@@ -252,12 +199,13 @@ void TotalLagrangian::move_row(Nodes& n, int row, const StepInput& input, NodeTo
   }
 }
 
-void TotalLagrangian::advance_rows(const Rows& rows, const StepInput& input) {
-  const Part& part = parts_[rows.body];
+void TotalLagrangian::advance_body(std::size_t index, const StepInput& input) {
+  const Part& part = parts_[index];
   std::visit(
       [&](auto& body) {
-        for (int j = rows.begin; j < rows.end; ++j) {
-          ParticleTotals& totals = particle_totals_[rows.body][static_cast<std::size_t>(j)];
+        const Lattice& lattice = body.particles.lattice;
+        for (int j = 0; j < lattice.rows(); ++j) {
+          ParticleTotals& totals = particle_totals_[index][static_cast<std::size_t>(j)];
           totals = {};
           const RowStep step{j,
                              part.rows[static_cast<std::size_t>(j)],
@@ -265,55 +213,26 @@ void TotalLagrangian::advance_rows(const Rows& rows, const StepInput& input) {
                              part.hourglass,
                              input.dt,
                              input.pic_fraction,
-                             j == rows.begin};
+                             j % lattice.stride == 0};
           if constexpr (std::decay_t<decltype(body.law)>::is_explosive) {
             if (body.particles.burning) {
-              advance_burning_row(body, nodes_[rows.body], step, totals);
+              advance_burning_row(body, nodes_[index], step, totals);
               continue;
             }
           }
-          advance_row<false>(body, nodes_[rows.body], step, totals);
+          advance_row<false>(body, nodes_[index], step, totals);
         }
       },
-      bodies_[rows.body]);
+      bodies_[index]);
 }
 
-void TotalLagrangian::apply_contact(const StepInput& input) {
-  if (contact_->any()) contact_totals_ = contact_->act(nodes_, input);
-}
-
-/// Node rows, contact, then particle rows. Every row is summed in the same order whichever thread has it, so
-/// that results do not depend on the number of threads.
+/// Node rows, contact, then particle rows.
 void TotalLagrangian::run_phases(const StepInput& input) {
-  const auto nodes = [&](std::size_t share) {
-    for (const Rows& rows : node_rows_[share])
-      move_row(nodes_[rows.body], rows.begin, input,
-               node_totals_[rows.body][static_cast<std::size_t>(rows.begin)]);
-  };
-  const auto particles = [&](std::size_t share) {
-    for (const Rows& rows : particle_rows_[share]) advance_rows(rows, input);
-  };
-  const auto serial = [&] {
-    for (std::size_t share = 0; share < node_rows_.size(); ++share) nodes(share);
-    apply_contact(input);
-    for (std::size_t share = 0; share < particle_rows_.size(); ++share) particles(share);
-  };
-  if (team_->threads() == 1) return serial();
-  const auto start = std::chrono::steady_clock::now();
-  if (threading_choice_.parallel()) {
-    team_->run([&](int member) {
-      nodes(static_cast<std::size_t>(member));
-      team_->wait_for_all();
-      if (contact_->any()) {
-        if (member == 0) apply_contact(input);
-        team_->wait_for_all();
-      }
-      particles(static_cast<std::size_t>(member));
-    });
-  } else {
-    serial();
-  }
-  threading_choice_.record(std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
+  for (std::size_t b = 0; b < bodies_.size(); ++b)
+    for (int row = 0; row < nodes_[b].rows; ++row)
+      move_row(nodes_[b], row, input, node_totals_[b][static_cast<std::size_t>(row)]);
+  if (contact_->any()) contact_totals_ = contact_->act(nodes_, input);
+  for (std::size_t b = 0; b < bodies_.size(); ++b) advance_body(b, input);
 }
 
 StepTotals TotalLagrangian::step(const StepInput& input) {

@@ -15,7 +15,7 @@ void TotalLagrangian::lengthen_steps() {
   for_each_cell([&fastest](ParticleFields& p, std::size_t slot, const CellRates& own) {
     fastest = std::max(fastest, std::max(own.stretch_x, own.stretch_r) * p.mass[slot] / p.inertia_x[slot]);
   });
-  // The sum of both bounds that of the fastest mode, as in src/run/monitor.hpp.
+  // The sum of both bounds that of the fastest mode (Irons & Treharne 1971).
   const double allowed = fastest / (longer * longer);
   for_each_cell([allowed](ParticleFields& p, std::size_t slot, const CellRates& own) {
     const double mass = p.mass[slot];

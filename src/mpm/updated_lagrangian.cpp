@@ -18,8 +18,6 @@ double lightest_density(const std::vector<AnyBody>& bodies) {
   return lightest;
 }
 
-double radial_measure(bool axisymmetric, double r) { return axisymmetric ? r : 1.0; }
-
 /// Half-lengths of the particles of an evenly divided body, m.
 double half_x(const ParticleFields& p) { return 0.5 * p.lattice.length_x(0); }
 double half_r(const ParticleFields& p) { return 0.5 * p.lattice.length_r(0); }
@@ -30,7 +28,6 @@ struct Transfer {
   double read_origin = 0;   ///< window of the grid that is read, m
   double write_origin = 0;  ///< window of the grid that is written, m
   double pic_fraction = 0;
-  bool axisymmetric = true;
 };
 
 Deformation deformation_of(const GridToParticle& g, double dt, Pack rest_volume, Pack volume) {
@@ -50,8 +47,8 @@ template <class Law>
 [[gnu::flatten]] void advance_body(Body<Law>& body, Grid& grid, const Transfer& transfer,
                                    ParticleTotals& totals) {
   ParticleFields& p = body.particles;
-  const StencilContext reading{grid, transfer.read_origin, half_x(p), half_r(p), transfer.axisymmetric};
-  const StencilContext writing{grid, transfer.write_origin, half_x(p), half_r(p), transfer.axisymmetric};
+  const StencilContext reading{grid, transfer.read_origin, half_x(p), half_r(p)};
+  const StencilContext writing{grid, transfer.write_origin, half_x(p), half_r(p)};
   for (std::size_t slot = 0; slot < p.x.size(); slot += math::pack_width) {
     const Pack mass = load(p.mass, slot);
     const Mask real = mass > Pack(0.0);
@@ -82,8 +79,8 @@ template <class Law>
 }
 
 /// Gives a body at rest and free of stress to an empty grid: mass and momentum only.
-void initial_particle_to_grid(const ParticleFields& p, Grid& grid, bool axisymmetric) {
-  const StencilContext writing{grid, grid.origin_x, half_x(p), half_r(p), axisymmetric};
+void initial_particle_to_grid(const ParticleFields& p, Grid& grid) {
+  const StencilContext writing{grid, grid.origin_x, half_x(p), half_r(p)};
   for (std::size_t slot = 0; slot < p.x.size(); slot += math::pack_width) {
     const Pack mass = load(p.mass, slot);
     const Stencil stencil = stencil_of(writing, load(p.x, slot), load(p.r, slot));
@@ -97,11 +94,7 @@ void initial_particle_to_grid(const ParticleFields& p, Grid& grid, bool axisymme
 }  // namespace
 
 UpdatedLagrangian::UpdatedLagrangian(const scene::Scene& scene, std::vector<AnyBody>& bodies)
-    : scene_(scene),
-      bodies_(bodies),
-      axisymmetric_(scene.symmetry == scene::Symmetry::axisymmetric),
-      grid_(make_grid(scene)),
-      base_origin_(grid_.origin_x) {
+    : scene_(scene), bodies_(bodies), grid_(make_grid(scene)), base_origin_(grid_.origin_x) {
   const double base = scene::extent_of(scene).x_end;
   const bool has_charge = scene::has_charge(scene);
   const double bottom = has_charge ? scene::charge_extent(scene).x_end : base;
@@ -112,8 +105,7 @@ UpdatedLagrangian::UpdatedLagrangian(const scene::Scene& scene, std::vector<AnyB
     const scene::Body& body = scene.bodies[static_cast<std::size_t>(p.body)];
     const int last = lattice.columns() - 1;
     for (int j = 0; body.x_end >= base && j < lattice.rows(); ++j)
-      faces_.push_back(
-          {&p, lattice.slot(last, j), radial_measure(axisymmetric_, lattice.r_of(j)) * lattice.length_r(j)});
+      faces_.push_back({&p, lattice.slot(last, j), lattice.r_of(j) * lattice.length_r(j)});
     if (body.x_end != bottom || scene::is_charge(scene, body) != has_charge) continue;
     for (int j = 0; j < lattice.rows(); ++j)
       anchors_.push_back({&p, lattice.slot(last, j), lattice.x_of(last)});
@@ -121,11 +113,9 @@ UpdatedLagrangian::UpdatedLagrangian(const scene::Scene& scene, std::vector<AnyB
   reset_grid();
 }
 
-/// The co-moving grid follows the charge bottom, so that particles there stay in their cells: crossing
-/// cells beside the steel makes the stresses of neighbouring particles alternate, and the skin temperatures
-/// with them. The lab's grid stands still; its window follows by whole cells.
+/// The grid follows the charge bottom, so that particles there stay in their cells: crossing cells beside the
+/// steel makes the stresses of neighbouring particles alternate, and the skin temperatures with them.
 double UpdatedLagrangian::window_origin() const {
-  if (scene_.frame == scene::Frame::lab) return base_origin_ + std::round(travel_ / grid_.dx) * grid_.dx;
   double displacement = 0.0;
   for (const Anchor& anchor : anchors_) displacement += anchor.body->x[anchor.slot] - anchor.initial_x;
   return base_origin_ + displacement / static_cast<double>(anchors_.size());
@@ -134,8 +124,7 @@ double UpdatedLagrangian::window_origin() const {
 void UpdatedLagrangian::reset_grid() {
   for (auto* field : {&grid_.mass, &grid_.momentum_x, &grid_.momentum_r, &grid_.force_x, &grid_.force_r})
     std::fill(field->begin(), field->end(), 0.0);
-  for (const AnyBody& body : bodies_)
-    initial_particle_to_grid(particle_fields_of(body), grid_, axisymmetric_);
+  for (const AnyBody& body : bodies_) initial_particle_to_grid(particle_fields_of(body), grid_);
 }
 
 double UpdatedLagrangian::stable_time_step() const {
@@ -163,7 +152,7 @@ void UpdatedLagrangian::locate_load() {
   load_shares_.clear();
   for (const LoadedFace& face : faces_) {
     const ParticleFields& p = *face.body;
-    const StencilContext context{grid_, grid_.origin_x, half_x(p), half_r(p), axisymmetric_};
+    const StencilContext context{grid_, grid_.origin_x, half_x(p), half_r(p)};
     const Stencil stencil = stencil_of(context, Pack(p.x[face.slot]), Pack(p.r[face.slot]));
     if (stencil.inside.lanes[0] == 0) continue;
     const double coordinate = (p.x[face.slot] + half_x(p) - grid_.origin_x) / grid_.dx;
@@ -182,8 +171,7 @@ void UpdatedLagrangian::locate_load() {
 void UpdatedLagrangian::update_grid(const StepInput& input, NodeTotals& totals) {
   const double scaling = scene_.numerics.inertial_scaling;
   const double dt = input.dt, damping_factor = input.damping_factor;
-  const double lightest = empty_node_share * lightest_density(bodies_) * grid_.dx * grid_.dr *
-                          radial_measure(axisymmetric_, grid_.dr);
+  const double lightest = empty_node_share * lightest_density(bodies_) * grid_.dx * grid_.dr * grid_.dr;
   // Nodes are padded to whole Packs; the rows' ends may share one, so the radial condition is given by node.
   Pack old_transport(0.0), axial_transport(0.0), damping(0.0);
   const Pack none(0.0);
@@ -213,7 +201,6 @@ void UpdatedLagrangian::update_grid(const StepInput& input, NodeTotals& totals) 
   totals.old_momentum = scaling * old_transport;
   totals.inertial_momentum = scaling * axial_transport;
   totals.momentum = axial_transport;
-  if (scene_.frame == scene::Frame::lab) travel_ += sum(axial_transport) / total_mass_ * dt;
 }
 
 StepTotals UpdatedLagrangian::step(const StepInput& input) {
@@ -226,7 +213,7 @@ StepTotals UpdatedLagrangian::step(const StepInput& input) {
   for (const LoadShare& share : load_shares_)
     totals.chamber_flow += share.force * grid_.velocity_x[share.node];
 
-  Transfer transfer{input.dt, grid_.origin_x, 0.0, input.pic_fraction, axisymmetric_};
+  Transfer transfer{input.dt, grid_.origin_x, 0.0, input.pic_fraction};
   grid_.origin_x = transfer.write_origin = window_origin();
   for (AnyBody& any : bodies_) {
     std::visit(

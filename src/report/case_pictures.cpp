@@ -1,35 +1,8 @@
 #include "case_pictures_parts.hpp"
 
-#include <ranges>
-
 namespace launchsafe::report {
 namespace detail {
 namespace {
-
-using EnergyTerm = std::pair<const char*, double run::EnergyBalance::*>;
-
-/// The magnitudes of terms against time.
-Plot energy_plot(const DrawnCase& drawn, const char* what, const std::vector<EnergyTerm>& terms) {
-  const bool whole = drawn.scene.symmetry == scene::Symmetry::axisymmetric;
-  Plot plot = time_plot(
-      drawn, what, whole ? "energy, magnitude [J]" : "energy per metre of the half model, magnitude [J]");
-  plot.y.scale = Scale::logarithmic;
-  for (const auto& [name, value] : terms) {
-    Series& series = plot.series.emplace_back(Series{.label = name});
-    for (const run::MonitorSample& sample : drawn.result.mechanics.monitor)
-      series.add(shown_value(sample.time, drawn_time().form), std::abs(sample.energy.*value));
-  }
-  // What is smaller is round-off beside the largest term.
-  constexpr double smallest = 1e-8;
-  const auto highest = [](const Series& series) { return std::ranges::max(series.y); };
-  const double largest = std::ranges::max(plot.series | std::views::transform(highest));
-  std::erase_if(plot.series, [&](const Series& series) { return !(highest(series) > smallest * largest); });
-  // Every other one is dashed, so that terms which balance each other are both seen.
-  for (std::size_t i = 0; i < plot.series.size(); ++i)
-    plot.series[i].style = i % 2 == 0 ? Style::line : Style::dashed_line;
-  if (largest > 0.0) plot.y.minimum = smallest * largest;
-  return plot;
-}
 
 /// Adds those of a run, each instant once. A time that the scene asks for is that of the first snapshot which
 /// is not before it.
@@ -70,26 +43,6 @@ std::vector<CaseTable> pressure_tables(const DrawnCase& drawn) {
                         trace.samples())}};
 }
 
-std::vector<CasePicture> energy_pictures(const DrawnCase& drawn) {
-  using run::EnergyBalance;
-  std::vector<CasePicture> pictures;
-  pictures.push_back(
-      {"energy.svg", energy_plot(drawn, "Terms of the energy balance",
-                                 {{"work of the chamber pressure", &EnergyBalance::external},
-                                  {"internal", &EnergyBalance::internal},
-                                  {"work of the frame's body force", &EnergyBalance::body_force},
-                                  {"kinetic, relative to the frame", &EnergyBalance::kinetic},
-                                  {"taken out by damping", &EnergyBalance::damping},
-                                  {"taken out by contact", &EnergyBalance::contact}})});
-  Plot losses = energy_plot(drawn, "Dissipated and stored parts of the internal energy",
-                            {{"plastic, in steel", &EnergyBalance::plastic},
-                             {"viscous, in the charge", &EnergyBalance::viscous},
-                             {"crack growth, in the charge", &EnergyBalance::crack},
-                             {"stored against hourglassing", &EnergyBalance::hourglass}});
-  if (!losses.series.empty()) pictures.push_back({"energy_dissipated.svg", std::move(losses)});
-  return pictures;
-}
-
 }  // namespace
 
 std::string shortened(const std::string& text, std::size_t longest) {
@@ -123,7 +76,6 @@ Plot time_plot(const DrawnCase& drawn, std::string title, std::string quantity) 
 Plot load_plot(const DrawnCase& drawn) {
   const trace::BottomTrace& trace = drawn.result.mechanics.trace;
   Plot plot = time_plot(drawn, {}, quantity::pressure.label());
-  plot.named_in_place = true;
   plot.series = {time_series("chamber", trace.time, trace.chamber_pressure, quantity::pressure),
                  time_series("charge's bottom", trace.time, trace.bottom_pressure, quantity::pressure)};
   // Of stations no line has these colours, beside which they are drawn.
@@ -157,18 +109,6 @@ const std::vector<PictureKind>& picture_kinds() {
       detail::fields_kind,
       detail::histories_kind,
       detail::profile_kind,
-      detail::air_kind,
-      {"energy", "terms of the energy balance against time",
-       [](const DrawnCase& drawn) -> std::string {
-         const auto moves = [](const run::EnergyBalance& energy) {
-           return energy.external != 0.0 || energy.kinetic != 0.0;
-         };
-         const auto& monitor = drawn.result.mechanics.monitor;
-         return std::ranges::any_of(monitor, moves, &run::MonitorSample::energy)
-                    ? ""
-                    : "its monitor recorded no energies";
-       },
-       detail::energy_pictures},
       detail::combustion_kind,
   };
   return kinds;

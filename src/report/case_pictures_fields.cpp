@@ -2,8 +2,6 @@
 #include "case_pictures_parts.hpp"
 #include "launchsafe/scene/plan.hpp"
 
-#include <span>
-
 namespace launchsafe::report::detail {
 namespace {
 
@@ -126,28 +124,11 @@ std::vector<Place> edge_of(const run::Snapshot& shot, const BodyCells& cells, bo
 
 // --- pictures ---
 
-/// Around the charge's bottom, of a shell so slender that its cells there are hard to see.
-std::optional<Enlargement> enlargement_of(const DrawnCase& drawn, const run::Snapshot& shot) {
-  constexpr double slender = 1.5, length_over_radius = 2.4, share_before_bottom = 0.62;
-  double begin = HUGE_VAL, end = -HUGE_VAL, radius = 0, bottom = -HUGE_VAL;
-  for (std::size_t i = 0; i < shot.x.size(); ++i) {
-    const double right = shot.x[i] + shot.half_length_x[i];
-    begin = std::min(begin, shot.x[i] - shot.half_length_x[i]);
-    end = std::max(end, right);
-    radius = std::max(radius, shot.r[i] + shot.half_length_r[i]);
-    if (is_charge(drawn, shot.body[i])) bottom = std::max(bottom, right);
-  }
-  const double length = length_over_radius * radius;
-  if (!std::isfinite(bottom) || end - begin < slender * length) return {};
-  const double from = std::clamp(bottom - share_before_bottom * length, begin, end - length);
-  return Enlargement{millimetres * from, millimetres * (from + length), millimetres * radius};
-}
-
 constexpr double beside = 1.2;  // of what is to be seen, so far a window reaches
 
 /// Around the cells with a value, where few have one.
-Enlargement window_of(const std::vector<FieldCell>& cells) {
-  Enlargement window{HUGE_VAL, -HUGE_VAL, 0.0, true};
+Window window_of(const std::vector<FieldCell>& cells) {
+  Window window{HUGE_VAL, -HUGE_VAL, 0.0};
   for (const FieldCell& cell : cells) {
     if (std::isnan(cell.value)) continue;
     window.x_begin = std::min(window.x_begin, cell.x - cell.half_x);
@@ -205,7 +186,7 @@ std::string name_of(const ShownSnapshot& shown) {
 const run::GapResult* skin_in(const DrawnCase& drawn, const Field& field, const ShownSnapshot& shown) {
   const run::Snapshot& shot = *shown.snapshot;
   const run::GapResult* largest = nullptr;
-  const bool has_bottom = shot.bottom_x.size() == 2 * rings_of(drawn.result.mechanics.trace).size();
+  const bool has_bottom = shot.bottom_x.size() == 2 * annuli_of(drawn.result.mechanics.trace).size();
   if (field.values != &run::Snapshot::temperature || shown.gap || !has_bottom) return largest;
   for (const run::GapResult& gap : drawn.result.gaps)
     if (has_skin(drawn, gap) && !(gap.skin.ignition && gap.skin.ignition->time <= shot.time) &&
@@ -243,22 +224,6 @@ void draw_skin(const DrawnCase& drawn, const run::Snapshot& shot, const run::Gap
                            fixed(coldest.value, 0), in_kelvin(hottest.value), in_kelvin(bulk));
 }
 
-/// The cells next to the axis of the only charge, from the nose to the bottom.
-std::span<const FieldCell> along_axis(const DrawnCase& drawn, const std::vector<FieldCell>& cells) {
-  std::span<const FieldCell> row;
-  for (const BodyCells& body : bodies_of(drawn.scene)) {
-    if (!scene::is_charge(drawn.scene, *body.body)) continue;
-    if (!row.empty()) return {};
-    row = std::span(cells).subspan(body.first, body.columns);
-  }
-  return row;
-}
-
-std::string words_of(const Field& field, double value) {
-  return fmt::format("{}{}{}", significant(value, std::abs(value) < 100.0 ? 2 : 3),
-                     field.shown.name.empty() ? "" : " ", field.shown.name);
-}
-
 /// "Pressure at 18.5 ms, gap 0.04 cm burning"
 std::string subject_of(const DrawnCase& drawn, const Field& field, const ShownSnapshot& shown) {
   const auto burns = [](const run::GapResult& gap) { return gap.combustion.has_value(); };
@@ -270,26 +235,7 @@ std::string subject_of(const DrawnCase& drawn, const Field& field, const ShownSn
   return subject + (std::ranges::any_of(drawn.result.gaps, burns) ? ", without burning" : "");
 }
 
-/// What the colours show; `own` are those of the picture without its neighbours.
-std::string finding_of(const DrawnCase& drawn, const Field& field, const CellPlot& plot,
-                       const ColourScale& own) {
-  const auto words = [&](double value) { return words_of(field, value); };
-  if (is_burnt_share(field))
-    return fmt::format(": up to {}, nothing beyond r {} mm", plot.ring_label,
-                       significant(plot.enlargement->r_end / beside, 3));
-  const std::span<const FieldCell> row = along_axis(drawn, plot.cells);
-  const double range = plot.scales[0].maximum - plot.scales[0].minimum;
-  const auto falls = [&](const FieldCell& a, const FieldCell& b) { return b.value < a.value - 0.03 * range; };
-  if (row.empty() || row.back().value < row.front().value + 0.5 * range ||
-      row.back().value > plot.scales[0].maximum || std::ranges::adjacent_find(row, falls) != row.end())
-    return fmt::format(": mostly {} to {}, up to {}", words(own.minimum), words(own.maximum),
-                       plot.ring_label);
-  return fmt::format(" rises along the axis from {} at the nose to {} at the bottom",
-                     words(row.front().value), words(row.back().value));
-}
-
-CellPlot field_plot(const DrawnCase& drawn, const Field& field, const ShownSnapshot& shown,
-                    const ColourScale& own) {
+CellPlot field_plot(const DrawnCase& drawn, const Field& field, const ShownSnapshot& shown) {
   const run::Snapshot& shot = *shown.snapshot;
   CellPlot plot;
   plot.subtitle = shortened(drawn.scene.title, 100);
@@ -303,21 +249,11 @@ CellPlot field_plot(const DrawnCase& drawn, const Field& field, const ShownSnaps
     plot.without_value = is_burnt_share(field) ? "nothing burns" : "without it";
   const run::GapResult* skin = skin_in(drawn, field, shown);
   if (skin != nullptr) draw_skin(drawn, shot, *skin, plot);
-  plot.enlargement =
-      skin != nullptr || is_burnt_share(field) ? window_of(plot.cells) : enlargement_of(drawn, shot);
-  const auto value = [](const FieldCell& cell) {
-    return cell.scale == 0 && std::isfinite(cell.value) ? cell.value : -HUGE_VAL;
-  };
-  const auto highest = std::ranges::max_element(plot.cells, {}, value);
-  plot.ringed = static_cast<std::size_t>(highest - plot.cells.begin());
-  plot.ring_label = words_of(field, highest->value);
+  if (skin != nullptr || is_burnt_share(field)) plot.window = window_of(plot.cells);
   if (skin == nullptr) {
-    plot.title = subject_of(drawn, field, shown) + finding_of(drawn, field, plot, own);
+    plot.title = subject_of(drawn, field, shown);
     if (!shown.gap && !drawn.result.gaps.empty()) plot.subtitle += "; the same for every gap";
   }
-  plot.subtitle +=
-      fmt::format("; ring: highest in the {}, x {}, r {} mm", scale_groups(drawn, field).front().name,
-                  significant(highest->x, 4), significant(highest->r, 3));
   return plot;
 }
 
@@ -367,10 +303,9 @@ std::vector<CasePicture> field_pictures(const DrawnCase& drawn) {
   for (const Field& field : run::snapshot_fields()) {
     if (!field.drawn || scale_groups(drawn, field).empty()) continue;
     for (const ShownSnapshot& each : chosen_snapshots(drawn)) {
-      const std::vector<ColourScale> own = scales_of(drawn, field, *each.snapshot);
-      if (varies(own) || skin_in(drawn, field, each) != nullptr)
+      if (varies(scales_of(drawn, field, *each.snapshot)) || skin_in(drawn, field, each) != nullptr)
         pictures.push_back({fmt::format("field_{}{}.svg", field.name, name_of(each)),
-                            field_plot(drawn, field, each, own.front()), each.snapshot->time, each.gap});
+                            field_plot(drawn, field, each), each.snapshot->time, each.gap});
     }
   }
   return pictures;

@@ -6,7 +6,7 @@
 
 namespace launchsafe::report::detail {
 
-extern const PictureKind fields_kind, histories_kind, profile_kind, air_kind, combustion_kind;
+extern const PictureKind fields_kind, histories_kind, profile_kind, combustion_kind;
 
 /// Of a gap in the name of a file: "0.04cm".
 std::string gap_in_name(double gap);
@@ -37,6 +37,6 @@ inline auto at_sample(const std::vector<double>& values) {
 /// Whether the skin of a gap was computed at all stations that tile the charge's bottom.
 bool has_skin(const DrawnCase& drawn, const run::GapResult& gap);
 /// Indices of these stations, from the axis to the wall.
-std::vector<std::size_t> rings_of(const trace::BottomTrace& trace);
+std::vector<std::size_t> annuli_of(const trace::BottomTrace& trace);
 
 }  // namespace launchsafe::report::detail

@@ -70,9 +70,9 @@ namespace {
 
 constexpr double cell_page_width = 1400, page_left = 86, page_top = 92;
 constexpr double bar_width = 18, bar_distance = 140, before_bars = 64;
-constexpr double most_whole_height = 620, enlarged_height = 460;
+constexpr double most_whole_height = 620, window_height = 460;
 constexpr double edge_margin = 0.002;  // share of the length
-constexpr double below_axis = 66, above_enlarged = 58;
+constexpr double below_axis = 66;
 
 /// A window of the section and where it is on the page.
 struct CellPanel {
@@ -108,13 +108,12 @@ CellPanel whole_section(const CellPlot& plot) {
   return panel;
 }
 
-CellPanel enlarged_section(const CellPlot& plot, double top) {
-  const Enlargement& part = *plot.enlargement;
+CellPanel window_section(const CellPlot& plot) {
+  const Window& part = *plot.window;
   const double margin = edge_margin * (part.x_end - part.x_begin);
-  CellPanel panel{part.x_begin, part.x_end + margin, 0, part.r_end + margin, 0, 0, top};
+  CellPanel panel{part.x_begin, part.x_end + margin, 0, part.r_end + margin, 0, 0, page_top};
   panel.scale_x = drawing_width(plot) / (panel.x_end - panel.x_begin);
-  panel.scale_r = enlarged_height / panel.r_end;
-  if (!part.alone) panel.scale_x = panel.scale_r = std::min(panel.scale_x, panel.scale_r);
+  panel.scale_r = window_height / panel.r_end;
   return panel;
 }
 
@@ -207,15 +206,14 @@ std::string scale_commands(const ColourScale& scale, std::size_t index, const Ce
 }
 
 /// The cells of one scale, without axes; those without a value below the first.
-std::string scale_cells(const CellPlot& plot, std::size_t scale, const CellPanel& panel,
-                        const std::string& name) {
+std::string scale_cells(const CellPlot& plot, std::size_t scale, const CellPanel& panel) {
   Commands commands;
   if (scale == 0)
     add_cells(
-        plot, panel, name + "_grey", [](const FieldCell& cell) { return !std::isfinite(cell.value); },
+        plot, panel, "grey", [](const FieldCell& cell) { return !std::isfinite(cell.value); },
         fmt::format("1:2:3:4:5:6 {} rgb '#d0d0d0' notitle", filled_boxes), commands);
   add_cells(
-      plot, panel, fmt::format("{}_cells{}", name, scale),
+      plot, panel, fmt::format("cells{}", scale),
       [scale](const FieldCell& cell) { return cell.scale == scale && std::isfinite(cell.value); },
       fmt::format("1:2:3:4:5:6:7 {} palette notitle", filled_boxes), commands);
   return commands.text();
@@ -223,32 +221,21 @@ std::string scale_cells(const CellPlot& plot, std::size_t scale, const CellPanel
 
 /// Cells beyond the colours, in two that the colour-blind too tell from them; over all cells the edges of
 /// bodies, on both sides of the axis.
-std::string outline_commands(const CellPlot& plot, const CellPanel& panel, const std::string& name) {
+std::string outline_commands(const CellPlot& plot, const CellPanel& panel) {
   Commands commands;
   for (const int side : {1, -1})
     add_cells(
-        plot, panel, name + (side > 0 ? "_above" : "_below"),
+        plot, panel, side > 0 ? "above" : "below",
         [&](const FieldCell& cell) { return beyond(plot, cell) == side; },
         fmt::format("1:2:3:4:5:6 {} rgb '{}' notitle", filled_boxes, side > 0 ? "#d55e00" : "#cc79a7"),
         commands);
   constexpr std::string_view look = "with lines linewidth 1.2 linecolor rgb '#111111' notitle";
   for (std::size_t i = 0; i < plot.outlines.size(); ++i) {
-    const std::string data = fmt::format("{}_outline{}", name, i);
+    const std::string data = fmt::format("outline{}", i);
     commands.add(data, path_lines(plot.outlines[i]),
                  fmt::format("1:2 {}, ${} using 1:(-$2) {}", look, data, look));
   }
   return commands.text();
-}
-
-/// A ring around a cell and its value beside it, away from the axis or from the wall, on white.
-std::string ring_commands(const CellPlot& plot, const CellPanel& panel) {
-  const FieldCell& cell = plot.cells[plot.ringed];
-  if (plot.ring_label.empty()) return {};
-  return fmt::format(
-      "set style textbox opaque fillcolor rgb '#ffffff' noborder\n"
-      "set label {} at first {}, first {} left offset 1.8, {} boxed front point pointtype 6 pointsize 1.6 "
-      "linewidth 2 linecolor rgb '#111111'\n",
-      quoted(plot.ring_label), exact(cell.x), exact(cell.r), cell.r < 0.5 * panel.r_end ? 0.9 : -0.9);
 }
 
 /// The axis of symmetry, beyond the base alone, where it hides no cell.
@@ -266,7 +253,7 @@ std::string page_text(const CellPlot& plot, const CellPanel& first) {
   for (const int side : {1, -1})
     if (std::ranges::any_of(plot.cells, [&](const auto& cell) { return beyond(plot, cell) == side; }))
       small += side > 0 ? "; orange: above the colours" : "; pink: below the colours";
-  if (plot.enlargement && plot.enlargement->alone)
+  if (plot.window)
     small += fmt::format("; x, towards the base, is stretched {} times",
                          significant(first.scale_x / first.scale_r, 2));
   return fmt::format(
@@ -298,36 +285,18 @@ std::string unfit(const CellPlot& plot) {
 }
 
 std::string to_gnuplot(const CellPlot& plot) {
-  const bool alone = plot.enlargement && plot.enlargement->alone;
-  const CellPanel first = alone ? enlarged_section(plot, page_top) : whole_section(plot);
-  std::optional<CellPanel> enlarged;
-  if (plot.enlargement && !alone)
-    enlarged = enlarged_section(plot, first.bottom() + below_axis + above_enlarged);
-  const double height = std::ceil((enlarged ? enlarged->bottom() : first.bottom()) + below_axis);
-  const auto cells_in = [&](const CellPanel& panel, const std::string& name) {
-    std::string text = panel_range(panel, height) + std::string(without_axes);
-    for (std::size_t i = 0; i < plot.scales.size(); ++i) {
-      text += scale_commands(plot.scales[i], i, first, height);
-      if (name == "part") text += "unset colorbox\n";
-      text += scale_cells(plot, i, panel, name);
-    }
-    return text + "unset colorbox\n" + std::string(with_axes) +
-           fmt::format("set xtics nomirror out scale 0.6 {}\nset ytics nomirror out scale 0.6 ({})\n",
-                       exact(round_distance(70 / panel.scale_x)), radius_marks(panel));
-  };
+  const CellPanel panel = plot.window ? window_section(plot) : whole_section(plot);
+  const double height = std::ceil(panel.bottom() + below_axis);
   std::string text =
       page_commands(cell_page_width, height) +
-      "set tics nomirror out scale 0.6 textcolor rgb '#222222'\nset format '%g'\nunset key\nset multiplot\n";
-  text += cells_in(first, "whole") + page_text(plot, first) + axis_line(first) + ring_commands(plot, first) +
-          outline_commands(plot, first, "whole");
-  if (enlarged) {
-    text += "unset arrow\nunset label\n" + cells_in(*enlarged, "part");
-    text += fmt::format("set label 1 {} at graph 0, graph 1 offset 0, character 1.2 font ',15'\n",
-                        quoted(fmt::format("At the bottom of the charge, enlarged {} times",
-                                           significant(enlarged->scale_x / first.scale_x, 2))));
-    text += ring_commands(plot, *enlarged) + outline_commands(plot, *enlarged, "part");
-  }
-  return text + "unset multiplot\n";
+      "set tics nomirror out scale 0.6 textcolor rgb '#222222'\nset format '%g'\nunset key\nset multiplot\n" +
+      panel_range(panel, height) + std::string(without_axes);
+  for (std::size_t i = 0; i < plot.scales.size(); ++i)
+    text += scale_commands(plot.scales[i], i, panel, height) + scale_cells(plot, i, panel);
+  return text + "unset colorbox\n" + std::string(with_axes) +
+         fmt::format("set xtics nomirror out scale 0.6 {}\nset ytics nomirror out scale 0.6 ({})\n",
+                     exact(round_distance(70 / panel.scale_x)), radius_marks(panel)) +
+         page_text(plot, panel) + axis_line(panel) + outline_commands(plot, panel) + "unset multiplot\n";
 }
 
 }  // namespace launchsafe::report

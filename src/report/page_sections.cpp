@@ -104,13 +104,10 @@ struct Sections {
     if (!said.empty()) put(text, text.look.c_str(), facts, {{"text", said}});
   }
 
-  /// The class of a verdict's cell. Green is for what rests on no value that somebody had to accept, and on
-  /// nothing that was invented.
-  std::string look_of(const Row& row) const {
+  /// The class of a verdict's cell. Green is for what rests on no value that somebody had to accept.
+  static std::string look_of(const Row& row) {
     const std::string verdict = text_of(row, "verdict");
-    const bool accepted =
-        !text_of(row, "accepted").empty() || !found_in(all.facts, "main.demonstration").is_null();
-    return verdict == "SAFE" && accepted ? "ACCEPTED" : verdict;
+    return verdict == "SAFE" && !text_of(row, "accepted").empty() ? "ACCEPTED" : verdict;
   }
 
   /// Of a table without columns all that its rows have. Pages leave a column out that is empty, or says the

@@ -57,13 +57,6 @@ std::string digits_of(double value, const std::string& form, int digits) {
   return report::significant(value, digits);
 }
 
-/// "416.25 ± 0.20"; a number alone where its error is not known.
-std::string with_error(double value, double error) {
-  if (!(error > 0.0)) return report::fixed(value, 1);
-  const int decimals = decimals_for(error);
-  return report::fixed(value, decimals) + " ± " + report::fixed(rounded_up(error, decimals), decimals);
-}
-
 /// A text, a number as its shortest text, or "true"; empty for anything else.
 std::string fact_text(const Row& fact) {
   if (fact.is_string()) return fact.get<std::string>();
@@ -73,11 +66,11 @@ std::string fact_text(const Row& fact) {
 
 /// Facts by name, those that were pushed last first; behind bars in forms: "margin_K|down 1", where the
 /// digits may be a fact too. Besides those of numbers: "over 1" is there where a number is larger (than a
-/// fact too), "is 1" where a number or a word is that one, "measured error_K" tells a number with that error,
-/// and "counted case" is "2 cases"; of a text "words" has blanks between them, "first 12" is its beginning
-/// and "padded 22" is as wide as that at least; of a list "list 4" are its first texts, "joined" and "and"
-/// all of them, "some" is there where it has any, "any warning fault" where a row has something under one of
-/// these, "all verdict SAFE" where all rows have that there, and "count verdict SAFE" is how many have.
+/// fact too), "is 1" where a number or a word is that one, and "counted case" is "2 cases"; of a text "words"
+/// has blanks between them, "first 12" is its beginning and "padded 22" is as wide as that at least; of a
+/// list "list 4" are its first texts, "joined" and "and" all of them, "some" is there where it has any, "any
+/// warning fault" where a row has something under one of these, "all verdict SAFE" where all rows have that
+/// there, and "count verdict SAFE" is how many have.
 class Facts : public mustache::basic_context<std::string> {
  public:
   explicit Facts(std::vector<const Row*> facts) : stack_(std::move(facts)) {}
@@ -145,8 +138,6 @@ class Facts : public mustache::basic_context<std::string> {
       made = fact_text(fact) == digits;
     } else if (form == "some") {
       made = !fact.empty();
-    } else if (form == "measured") {
-      made = with_error(fact.get<double>(), stated.is_number() ? stated.get<double>() : 0.0);
     } else if (form == "over") {
       made = fact.is_number() && fact.get<double>() > std::atof(digits.c_str());
     } else if (fact.is_number()) {

@@ -1,14 +1,29 @@
 #include "launchsafe/report/plot.hpp"
 
 #include "launchsafe/report/table.hpp"
-#include "plot_names.hpp"
 
 #include <array>
 
 namespace launchsafe::report {
 namespace {
 
+/// Pixels of a letter, as gnuplot reckons.
+constexpr double letter_width = 8.4;
+
 // --- series ---
+
+/// Index into the palette, and into the signs of points.
+std::size_t look_of(const Series& series, std::size_t index) {
+  return series.colour ? static_cast<std::size_t>(*series.colour) : index;
+}
+
+std::string_view colour_of(const Series& series, std::size_t index) {
+  // Okabe and Ito's colours, told apart by the colour-blind too; grey for the yellow that white paper
+  // swallows.
+  constexpr std::array<std::string_view, 8> palette{"#0072b2", "#d55e00", "#009e73", "#cc79a7",
+                                                    "#e69f00", "#56b4e9", "#000000", "#7f7f7f"};
+  return palette[look_of(series, index) % palette.size()];
+}
 
 bool has_bars(const Series& series) {
   return series.style >= Style::vertical_bars && series.style <= Style::filled_bars;
@@ -39,7 +54,7 @@ std::string title_of(const std::string& label) {
 
 std::string points_of(Mark mark) {
   // In the order of Mark: gnuplot's filled signs, open signs, the cross, and nothing.
-  constexpr std::array<int, 10> types{7, 5, 9, 13, 11, 6, 4, 8, 2, -1};
+  constexpr std::array<int, 9> types{7, 5, 9, 13, 11, 6, 4, 2, -1};
   // Open signs are larger, so that they show around filled ones at the same place.
   const double size = mark < Mark::open_circle ? 0.7 : 1.1;
   return fmt::format("pointtype {} pointsize {}", types[static_cast<std::size_t>(mark)], size);
@@ -47,14 +62,13 @@ std::string points_of(Mark mark) {
 
 std::string style_of(const Series& series, std::size_t index) {
   // In the order of Style: {0} is the sign of points, {1} the colour.
-  constexpr std::array<const char*, 8> styles{"with lines linewidth 2 {1}",
+  constexpr std::array<const char*, 7> styles{"with lines linewidth 2 {1}",
                                               "with lines linewidth 2 dashtype 2 {1}",
                                               "with points linewidth 1.5 {0} {1}",
                                               "with linespoints linewidth 2 {0} {1}",
                                               "with yerrorbars linewidth 1.5 {0} {1}",
                                               "with xerrorbars linewidth 1.5 {0} {1}",
-                                              "with boxxyerror fillstyle solid 1.0 noborder {1}",
-                                              "with steps linewidth 2 {1}"};
+                                              "with boxxyerror fillstyle solid 1.0 noborder {1}"};
   const auto sign = series.mark.value_or(static_cast<Mark>(look_of(series, index) % 8));
   return fmt::format(fmt::runtime(styles.at(static_cast<std::size_t>(series.style))), points_of(sign),
                      fmt::format("linecolor rgb '{}'", colour_of(series, index)));
@@ -63,7 +77,6 @@ std::string style_of(const Series& series, std::size_t index) {
 // --- commands ---
 
 void add_series(const Plot& plot, Commands& commands) {
-  const std::vector<bool> named = names_in_place(plot).series;
   for (std::size_t i = 0; i < plot.series.size(); ++i) {
     const Series& series = plot.series[i];
     if (series.x.empty()) continue;
@@ -71,24 +84,21 @@ void add_series(const Plot& plot, Commands& commands) {
     const std::string_view columns = series.style == Style::filled_bars ? box
                                      : has_bars(series)                 ? "1:2:3:4"
                                                                         : "1:2";
-    commands.add(
-        fmt::format("series{}", i), series_data(plot, series),
-        fmt::format("{} {} {}", columns, style_of(series, i), title_of(named[i] ? "" : series.label)));
+    commands.add(fmt::format("series{}", i), series_data(plot, series),
+                 fmt::format("{} {} {}", columns, style_of(series, i), title_of(series.label)));
   }
 }
 
 /// Bands from edge to edge: along the second axes, which go from 0 to 1.
 void add_bands(const Plot& plot, Commands& commands) {
-  const auto add = [&](const char* name, const std::vector<Band>& bands, Scale scale, const char* outline,
-                       const char* axes) {
-    for (std::size_t i = 0; i < bands.size(); ++i)
-      commands.add(fmt::format("{}{}", name, i),
-                   fmt::format(fmt::runtime(outline), coordinate(bands[i].from, scale),
-                               coordinate(bands[i].to, scale)),
-                   fmt::format("1:2 axes {} with filledcurves closed fillcolor rgb '#e4e4e4' notitle", axes));
-  };
-  add("band", plot.vertical_bands, plot.x.scale, "{0} 0\n{0} 1\n{1} 1\n{1} 0\n", "x1y2");
-  add("level", plot.horizontal_bands, plot.y.scale, "0 {0}\n0 {1}\n1 {1}\n1 {0}\n", "x2y1");
+  for (std::size_t i = 0; i < plot.vertical_bands.size(); ++i) {
+    const Band& band = plot.vertical_bands[i];
+    commands.add(fmt::format("band{}", i),
+                 fmt::format("{0} 0\n{0} 1\n{1} 1\n{1} 0\n", coordinate(band.from, plot.x.scale),
+                             coordinate(band.to, plot.x.scale)),
+                 fmt::format("1:2 axes x1y2 with filledcurves closed fillcolor rgb '#e4e4e4' {}",
+                             title_of(band.label)));
+  }
 }
 
 /// Lines, likewise.
@@ -96,16 +106,16 @@ void add_lines(const Plot& plot, Commands& commands) {
   const auto add = [&](const char* name, const std::vector<Line>& lines, Scale scale, const char* ends,
                        const char* axes, int dashes) {
     for (std::size_t i = 0; i < lines.size(); ++i)
-      commands.add(
-          fmt::format("{}{}", name, i), fmt::format(fmt::runtime(ends), coordinate(lines[i].at, scale)),
-          fmt::format("1:2 axes {} with lines linewidth 1.3 linecolor rgb '#444444' dashtype {} notitle",
-                      axes, dashes));
+      commands.add(fmt::format("{}{}", name, i),
+                   fmt::format(fmt::runtime(ends), coordinate(lines[i].at, scale)),
+                   fmt::format("1:2 axes {} with lines linewidth 1.3 linecolor rgb '#444444' dashtype {} {}",
+                               axes, dashes, title_of(lines[i].label)));
   };
   add("vertical", plot.vertical_lines, plot.x.scale, "{0} 0\n{0} 1\n", "x1y2", 2);
   add("horizontal", plot.horizontal_lines, plot.y.scale, "0 {0}\n1 {0}\n", "x2y1", 4);
 }
 
-// --- names ---
+// --- the legend ---
 
 /// Entries of the legend in so many columns that the longest has room, below the label of the x axis.
 struct Legend {
@@ -115,13 +125,15 @@ struct Legend {
 Legend legend_of(const Plot& plot) {
   constexpr double sample = 60;  // pixels
   std::size_t longest = 0, entries = 0;
-  const std::vector<bool> named = names_in_place(plot).series;
-  for (std::size_t i = 0; i < plot.series.size(); ++i) {
-    const Series& series = plot.series[i];
-    if (named[i] || series.x.empty() || series.label.empty()) continue;
-    longest = std::max(longest, display_width(series.label));
-    ++entries;
-  }
+  const auto add = [&](const std::string& label) {
+    longest = std::max(longest, display_width(label));
+    entries += label.empty() ? 0 : 1;
+  };
+  for (const Series& series : plot.series)
+    if (!series.x.empty()) add(series.label);
+  for (const auto* lines : {&plot.vertical_lines, &plot.horizontal_lines})
+    for (const Line& line : *lines) add(line.label);
+  for (const Band& band : plot.vertical_bands) add(band.label);
   const double room = 0.95 * plot.width / (sample + letter_width * static_cast<double>(longest));
   const auto columns =
       std::clamp<std::size_t>(static_cast<std::size_t>(room), 1, std::max<std::size_t>(entries, 1));
@@ -135,15 +147,15 @@ int whole_height(const Plot& plot) {
 }
 
 /// The legend, if there is anything to say.
-std::string key_commands(const Plot& plot, const char* where) {
+std::string key_commands(const Plot& plot) {
   const Legend legend = legend_of(plot);
   if (legend.rows == 0) return "unset key\n";
-  return fmt::format("set key {} horizontal height 1.5 maxcols {} Left reverse samplen 2 spacing 1.25\n",
-                     where, legend.columns);
+  return fmt::format(
+      "set key outside bottom center horizontal height 1.5 maxcols {} Left reverse samplen 2 spacing 1.25\n",
+      legend.columns);
 }
 
-/// `width`: letters of the names at the right.
-std::string frame_commands(const Plot& plot, std::size_t width) {
+std::string frame_commands(const Plot& plot) {
   // So large that it is on the page, in whose middle it stands.
   const auto size = [&](const std::string& text, double most) {
     return std::clamp(1.7 * plot.width / static_cast<double>(display_width(text) + 1), 9.0, most);
@@ -151,7 +163,7 @@ std::string frame_commands(const Plot& plot, std::size_t width) {
   std::size_t longest_tic = 0;
   for (const Tic& tic : plot.y.tics) longest_tic = std::max(longest_tic, display_width(tic.label));
   const double left = std::max<double>(10.0, 4.0 + 0.85 * static_cast<double>(longest_tic));
-  const double aside = 0.5 * (static_cast<double>(right_margin(width)) - left);
+  const double aside = 0.5 * (3.0 - left);
   std::string text = fmt::format(
       "set border 3 linewidth 1 linecolor rgb '#444444'\n"
       "set tics nomirror out scale 0.6 textcolor rgb '#222222'\n"
@@ -165,7 +177,7 @@ std::string frame_commands(const Plot& plot, std::size_t width) {
         "set tmargin 4.6\nset label 1 {} at graph 0.5, graph 1 center offset {:.1f}, 0.9 font ',{:.0f}' "
         "textcolor rgb '#444444'\n",
         quoted(plot.subtitle), aside, size(plot.subtitle, 12.0));
-  return text + key_commands(plot, "outside bottom center");
+  return text + key_commands(plot);
 }
 
 /// Label, limits, scale and tics of the axis "x" or "y".
@@ -188,56 +200,37 @@ std::string axis_commands(const std::string& name, const PlotAxis& axis) {
   return text + fmt::format("unset m{0}tics\nset {0}tics ({1})\n", name, fmt::join(tics, ", "));
 }
 
-/// `width`: letters beside the plot, for names at the ends of lines.
-std::string drawing_commands(const Plot& plot, std::size_t width) {
+std::string drawing_commands(const Plot& plot) {
   Commands commands;
   add_bands(plot, commands);
   add_series(plot, commands);
   add_lines(plot, commands);
-  return frame_commands(plot, width) + axis_commands("x", plot.x) + axis_commands("y", plot.y) +
-         (plot.named_in_place ? fmt::format("set rmargin {}\n", right_margin(width)) : "") +
-         names_in_place(plot).commands + commands.text();
+  return frame_commands(plot) + axis_commands("x", plot.x) + axis_commands("y", plot.y) + commands.text();
 }
 
-/// Row by row, each in a place as wide as the widest of them and as high as the highest of its row.
+/// Below each other, as wide as the widest of them.
 std::string panel_commands(const Plot& plot) {
   const int title_height = plot.subtitle.empty() ? 40 : 64;
-  const auto columns = static_cast<std::size_t>(plot.columns);
-  const int legend_height = 34 * static_cast<int>(legend_of(plot).rows);
-  int width = 0, height = title_height + legend_height;
-  std::vector<int> row_heights;
-  std::size_t longest_name = 0;
-  for (std::size_t i = 0; i < plot.panels.size(); ++i) {
-    if (i % columns == 0) row_heights.push_back(0);
-    width = std::max(width, plot.panels[i].width);
-    longest_name = std::max(longest_name, longest_end_name(plot.panels[i]));
-    row_heights.back() = std::max(row_heights.back(), whole_height(plot.panels[i]));
+  int width = 0, height = title_height;
+  for (const Plot& panel : plot.panels) {
+    width = std::max(width, panel.width);
+    height += whole_height(panel);
   }
-  for (const int each : row_heights) height += each;
-  const double page_width = plot.columns * width, page_height = height;
-  Commands legend;
-  legend.plots.emplace_back("NaN notitle");
-  add_series(plot, legend);
-  std::string text = page_commands(page_width, page_height) + "set multiplot\n" +
-                     fmt::format("set label 1 {} at screen 0.5, screen {} center font ',18'\n",
-                                 quoted(plot.title), exact(1 - 24 / page_height)) +
-                     fmt::format(
-                         "set label 2 {} at screen 0.5, screen {} center font ',13' textcolor rgb "
-                         "'#444444'\n",
-                         quoted(plot.subtitle), exact(1 - 50 / page_height)) +
-                     "unset border\nunset tics\nset xrange [0:1]\nset yrange [0:1]\n" +
-                     key_commands(plot, "at screen 0.5, screen 0 center bottom") + legend.text();
-  int top = title_height;
-  for (std::size_t i = 0; i < plot.panels.size(); ++i) {
-    const int row_height = row_heights[i / columns];
-    text +=
-        fmt::format("reset\n{}set tmargin 4.6\nset size {}, {}\nset origin {}, {}\n",
-                    plot.columns == 1 ? "set lmargin 10\n" : "", exact(1.0 / plot.columns),
-                    exact(row_height / page_height), exact(static_cast<double>(i % columns) / plot.columns),
-                    exact(1 - (top + row_height) / page_height));
-    text +=
-        drawing_commands(plot.panels[i], plot.columns == 1 ? longest_name : longest_end_name(plot.panels[i]));
-    if (i % columns + 1 == columns) top += row_height;
+  const double page_height = height;
+  std::string text =
+      page_commands(width, page_height) + "set multiplot\n" +
+      fmt::format("set label 1 {} at screen 0.5, screen {} center font ',18'\n", quoted(plot.title),
+                  exact(1 - 24 / page_height)) +
+      fmt::format("set label 2 {} at screen 0.5, screen {} center font ',13' textcolor rgb '#444444'\n",
+                  quoted(plot.subtitle), exact(1 - 50 / page_height)) +
+      "unset border\nunset tics\nset xrange [0:1]\nset yrange [0:1]\nplot NaN notitle\n";
+  int bottom = title_height;
+  for (const Plot& panel : plot.panels) {
+    bottom += whole_height(panel);
+    text += fmt::format(
+        "reset\nset lmargin 10\nset rmargin 3\nset tmargin 4.6\nset size 1, {}\nset origin 0, {}\n",
+        exact(whole_height(panel) / page_height), exact(1 - bottom / page_height));
+    text += drawing_commands(panel);
   }
   return text + "unset multiplot\n";
 }
@@ -278,7 +271,7 @@ std::string unfit(const Plot& plot) {
 
 std::string to_gnuplot(const Plot& plot) {
   if (!plot.panels.empty()) return panel_commands(plot);
-  return page_commands(plot.width, whole_height(plot)) + drawing_commands(plot, longest_end_name(plot));
+  return page_commands(plot.width, whole_height(plot)) + drawing_commands(plot);
 }
 
 void cut_axis(double line, Plot& plot) {

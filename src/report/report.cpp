@@ -142,7 +142,6 @@ std::string study_json(const study::StudyFile& study, const Report& report,
   nlohmann::ordered_json head{{"format", "launchsafe study 1"},  {"kind", study.study.kind.name},
                               {"study", study_file_name(study)}, {"title", report.title},
                               {"answer", report.answer},         {"kinetics", kinetics_json(study.scene)}};
-  if (study.study.demonstration) head["demonstration"] = true;
   head.update(members);
   for (const study::StatedUncertainty& each : study.study.stated)
     head["stated_by_hand"].push_back(

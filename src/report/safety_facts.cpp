@@ -27,30 +27,14 @@ std::string short_value(const std::string& value) {
 
 /// All inputs, but those of a law of which no body is made.
 Row inputs_of(const scene::SceneFile& file) {
-  const auto known = [](const std::string& name) { return scene::find_key(scene::scene_keys(), name); };
-  std::vector<std::string> names = study::of_each(scene::list_keys(file), &scene::ListedKey::name);
-  // Values of bodies, interfaces and further materials whose source the scene says.
-  for (const scene::Source& source : file.scene.sources)
-    std::ranges::copy_if(source.keys, std::back_inserter(names),
-                         [&](const std::string& name) { return known(name) == nullptr; });
   Row inputs = Row::array();
-  for (const std::string& name : names) {
-    const std::string law = name.substr(0, name.find('.'));
+  for (const scene::ListedKey& each : scene::list_keys(file)) {
+    const std::string law = each.name.substr(0, each.name.find('.'));
     const bool is_unused =
         (law == "steel" || law == "elastic") &&
         std::ranges::find(file.scene.bodies, law, &scene::Body::material) == file.scene.bodies.end();
-    const auto key = scene::describe_key(file, name, {});
-    if (is_unused || !key) continue;
-    const std::string value = scene::format_value(*key, scene::value_in(file, name));
-    std::string standing = "stated";
-    if (const scene::Source* source = scene::source_of(file.scene.sources, name))
-      standing = fmt::format("{}: {}", scene::meaning_of(source->standing), source->citation);
-    // The manifest writes every key: one with the value of the program's default has the default's standing.
-    else if (known(name) && key->usual.empty() &&
-             value == scene::format_value(*key, known(name)->default_value()))
-      standing = fmt::format("{} (default)", scene::meaning_of(key->standing));
-    inputs.push_back(
-        {{"key", name}, {"value", short_value(value)}, {"standing", standing}, {"meaning", key->sentence}});
+    if (is_unused) continue;
+    inputs.push_back({{"key", each.name}, {"value", short_value(each.value)}, {"meaning", each.sentence}});
   }
   return inputs;
 }
@@ -105,34 +89,25 @@ Row scene_facts(const StudyEvidence& study) {
   for (const scene::NamedTerm& term : scene::plan_terms)
     if (!(plan.*term.term).in)
       facts["left_out"].push_back({{"term", term.title}, {"why", (plan.*term.term).reason}});
-  if (!scene.bodies.empty()) facts["section"] = {{"file", "section.svg"}, {"svg", section_svg(scene)}};
   return facts;
 }
 
 /// The load, histories, profiles and fields of a case that was stored, with its verdicts.
-Row picture_facts(const StudyEvidence& study, const Row& own, const StoredLaunch& stored, PageFacts& all) {
+Row picture_facts(const StudyEvidence& study, const Row& own, const run::CaseResult& stored, PageFacts& all) {
   Row facts = Row::object();
-  run::CaseResult shown_result{stored.result.mechanics, {}};
+  run::CaseResult shown_result{stored.mechanics, {}};
   for (const Row* row : shown_gaps(own)) {
     const double gap = number_of(*row, "gap_cm") / shown_gap(1.0);
-    const auto found = std::ranges::find(stored.result.gaps, gap, &run::GapResult::gap);
-    if (found != stored.result.gaps.end())
+    const auto found = std::ranges::find(stored.gaps, gap, &run::GapResult::gap);
+    if (found != stored.gaps.end())
       shown_result.gaps.push_back(*found);
     else  // ignition under two-way coupling goes on in a run of its own
       facts["other_histories"].push_back(*row);
   }
-  DrawnCase drawn{stored.scene, shown_result};
-  drawn.early_time = number_of(study.study, "early_time_ms") / in(millisecond, 1.0);
-  for (const Row& row : study.rows("comparison"))
-    drawn.published.push_back({.gap = number_of(row, "gap_cm") / shown_gap(1.0),
-                               .maximum_temperature = number_of(row, "temperature_max_published_K"),
-                               .point = text_of(row, "temperature_max_published_place"),
-                               .early_temperature = number_of(row, "temperature_early_published_K"),
-                               .early_point = text_of(row, "temperature_early_published_place"),
-                               .ignition_time = number_of(row, "ignition_time_published_ms")});
+  DrawnCase drawn{study.scene.scene, shown_result};
   for (const PictureKind& kind : picture_kinds()) {
     const std::string word = kind.word;
-    if (word == "air" || word == "energy" || word == "combustion") continue;
+    if (word == "combustion") continue;
     if (const std::string why = kind.lacks(drawn); !why.empty()) {
       facts["lacks"].push_back({{"word", word}, {"why", why}});
       continue;
@@ -164,7 +139,7 @@ Row setting_of(const StudyEvidence& main, const StudyEvidence& accuracy) {
 /// "peak pressure 250 to 700 MPa", ...: what a study varies.
 Row covered_by(const StudyEvidence& study) {
   Row covered = Row::array();
-  for (const Row& axis : axes_json(study.planned.study)) {
+  for (const Row& axis : study.rows("axes")) {
     const auto [least, most] = std::ranges::minmax_element(axis["values"]);
     const Row ends{{"from", *least}, {"to", *most}};
     covered.push_back(filled("{{name|words}} {{from|sig 4}} to {{to|sig 4}} {{unit}}", {&axis, &ends}));
@@ -175,12 +150,8 @@ Row covered_by(const StudyEvidence& study) {
 /// Of a study, without its tables: its manifest, but for its input, and what else is told of it.
 Row about(const StudyEvidence& study, const StudyEvidence& main) {
   Row facts = store::to_json(study.record);
-  // The record that it wrote is the main study's by its digest, or by a bound that the cases took from it.
-  const bool has_record = study.tells == tells::accuracy;
-  const bool is_used = !setting_of(main, study).is_null() ||
-                       std::ranges::any_of(study.record.files, [&](const store::WrittenFile& file) {
-                         return main.record.manifest.input_text.find(file.sha256) != std::string::npos;
-                       });
+  // The record that it wrote is the main study's by a bound that the cases took from it.
+  const bool has_record = study.tells == tells::accuracy, is_used = !setting_of(main, study).is_null();
   facts.erase("input");
   facts.update({{"label", study.label},
                 {"kind", study.kind},
@@ -217,30 +188,6 @@ bool is_confirmed(const CaseEvidence& judged) {
     expected.insert(text_of(run, "expected"));
   }
   return expected.size() == 2;
-}
-
-/// Whether a sensitivity study draws its inputs about the launch of a case: that has values in the middle
-/// half of what was drawn of each, and all else but numerics is the same. Peaks about another one say nothing
-/// of it, nor do launches of an earlier program, which counted those with validity warnings as sound.
-bool is_drawn_about(const CaseEvidence& judged, const StudyEvidence& drawn) {
-  const Row& inputs = drawn.rows("inputs");
-  const auto makes_another = [&](const study::Difference& each) {
-    const auto varies = [&](const Row& input) { return text_of(input, "scene_key") == each.key.name; };
-    return is_of_launch(each) && !each.key.name.starts_with("numerics.") &&
-           std::ranges::none_of(inputs, varies);
-  };
-  const auto is_about = [&](const Row& input) {
-    const auto key = scene::describe_key(drawn.scene, text_of(input, "scene_key"), {});
-    if (!key) return false;
-    const keys::Form form{.dimension = key->dimension, .unit = text_of(input, "unit")};
-    std::vector<double> values;
-    for (const Row& row : drawn.rows("evaluations")) values.push_back(number_of(row, text_of(input, "key")));
-    std::ranges::sort(values);
-    const double own = judged.value(key->name) * shown_value(1.0, form);
-    return !values.empty() && own >= values[values.size() / 4] && own <= values[values.size() * 3 / 4];
-  };
-  return found_in(drawn.study, "ignition").contains("sound") &&
-         std::ranges::none_of(drawn.differences, makes_another) && std::ranges::all_of(inputs, is_about);
 }
 
 /// cm: the largest gap that is SAFE in every case. Nothing where a case has none.
@@ -320,7 +267,9 @@ Row answer_of(const StudyEvidence& study, const std::vector<CaseEvidence>& cases
   return {{"study", study.label},
           {"finished", study.finished()},
           {"largest_safe_gap_cm", largest_safe_in_all(cases)},
-          {"smallest_is_zero", std::ranges::count(study.planned.study.gaps, 0.0) > 0},
+          {"smallest_is_zero",
+           std::ranges::any_of(study.rows("verdicts"),
+                               [](const Row& verdict) { return number_of(verdict, "gap_cm") == 0.0; })},
           {"cases", study::of_each(cases, told_case)}};
 }
 
@@ -348,11 +297,8 @@ void add_launch(const SafetyEvidence& evidence, const std::vector<CaseEvidence>&
       all.facts["verdict_picture"] = {{"file", "temperature.svg"}};
       all.drawings["temperature.svg"] = verdict_plot(all.facts["main"], own.study->scene.scene);
     }
-    facts["fitted"] = std::ranges::any_of(own.study->rows("fit_curves"),
-                                          [&](const Row& row) { return text_of(row, "case") == own.label; });
     for (const Row* row : own.verdicts) facts["verdicts"].push_back(*row);
-    if (const auto stored = evidence.stored.find(own.label); stored != evidence.stored.end())
-      all.facts["pictures"] = picture_facts(*own.study, facts, stored->second, all);
+    if (evidence.stored) all.facts["pictures"] = picture_facts(*own.study, facts, *evidence.stored, all);
   }
   std::set<std::string> models;  // page one has a line of one that is of all rows but UNSAFE ones
   for (const Row* row : selected({"", "", "main.verdicts except verdict UNSAFE"}, all.facts))
@@ -385,8 +331,6 @@ PageFacts facts_of(const SafetyEvidence& evidence) {
     if (!facts.contains(name)) facts["missing"] = true;
   facts["temperature"] = temperature_text(main, cases);
   facts["several"] = cases.size() > 1;
-  if (const StudyEvidence* drawn = evidence.find(tells::sensitivity))
-    facts["same_launch"] = !cases.empty() && is_drawn_about(own_case(cases), *drawn);
   facts["answer"] = answer_of(main, of_launch ? cases : std::vector<CaseEvidence>{});
   for (std::size_t kind = 0; kind < study::share_kinds; ++kind)
     for (Row& share : facts["main"]["gap_shares"])

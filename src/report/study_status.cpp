@@ -86,20 +86,6 @@ void add_estimate(Row& facts, const std::vector<Writer>& writers, std::size_t no
   facts["end"] = clock_time(now + static_cast<std::time_t>(std::llround(left)), now);
 }
 
-std::string bar(double fraction) {
-  constexpr std::size_t length = 12;
-  const auto full = static_cast<std::size_t>(fraction * static_cast<double>(length));
-  return fmt::format("[{}{}] ", std::string(full, '#'), std::string(length - full, '-'));
-}
-
-/// "3.2 cases/min" with a unit in which it is a number of some size.
-std::string rate_text(double per_second) {
-  if (!(per_second > 0)) return {};
-  if (per_second >= 1) return fmt::format(", {:.3g} cases/s", per_second);
-  if (per_second >= 1.0 / 60) return fmt::format(", {:.2g} cases/min", 60 * per_second);
-  return fmt::format(", {:.2g} cases/h", 3600 * per_second);
-}
-
 std::string left_text(const study::Progress& progress, std::time_t now) {
   if (progress.seconds_left < 0) return {};
   if (progress.seconds_left < 1) return ", nearly done";
@@ -109,7 +95,7 @@ std::string left_text(const study::Progress& progress, std::time_t now) {
 
 }  // namespace
 
-std::string progress_line(const study::Progress& progress, std::time_t now, std::size_t width) {
+std::string progress_line(const study::Progress& progress, std::time_t now) {
   if (progress.phase == study::Phase::report || (progress.total > 0 && progress.done == progress.total))
     return fmt::format("{} of {} cases done, judging and writing", progress.cases_done, progress.cases);
   if (progress.total == 0) return "planning the cases";
@@ -119,16 +105,8 @@ std::string progress_line(const study::Progress& progress, std::time_t now, std:
       progress.phase == study::Phase::launches ? "" : study::to_string(progress.phase) + ": ";
   // "0.3 %", "42 %"; 99 % at most: a study that works has not done all.
   const double done_percent = std::clamp(100.0 * progress.fraction, 0.0, 99.0);
-  const std::string counts =
-      fmt::format("{}{:.{}f} %, {} of {} cases done{}", begin, done_percent, done_percent < 9.95 ? 1 : 0,
-                  progress.cases_done, progress.cases, failed);
-  const std::string left = left_text(progress, now);
-  // What matters least goes first where the terminal is narrow.
-  const std::string rate = rate_text(progress.cases_per_second);
-  for (const std::string& line :
-       {bar(progress.fraction) + counts + rate + left, bar(progress.fraction) + counts + left})
-    if (line.size() <= width) return line;
-  return counts + left;
+  return fmt::format("{}{:.{}f} %, {} of {} cases done{}{}", begin, done_percent, done_percent < 9.95 ? 1 : 0,
+                     progress.cases_done, progress.cases, failed, left_text(progress, now));
 }
 
 Row progress_row(const study::Progress& progress) {
@@ -191,7 +169,6 @@ Row status_facts(const std::string& folder, const std::vector<store::StoreStatus
   }
   facts["phase"] = text_of(snapshots.front().members, "phase");
   facts["time"] = clock_time(end, now);
-  facts["elapsed_s"] = std::max<std::time_t>(0, end - begin);
   facts["elapsed"] = duration(static_cast<double>(std::max<std::time_t>(0, end - begin)));
   if (not_seen > 0) facts["shards_not_seen"] = not_seen;
   if (writers.size() > 1 || not_seen > 0) facts["is"]["in_shards"] = true;

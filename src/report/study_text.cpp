@@ -208,7 +208,6 @@ std::string setup_text(const study::StudyFile& study) {
 std::string timing_text(const study::Timing& timing) {
   return noted("timing", {{"reused", timing.reused},
                           {"runs", timing.runs},
-                          {"rate", timing.run_time > 0 ? scientific(timing.updates_per_second(), 2) : ""},
                           {"wall_time", duration(timing.wall_time)},
                           {"jobs", timing.jobs}})
       .front();
@@ -224,11 +223,7 @@ nlohmann::ordered_json timing_json(const study::Timing& timing) {
       {quantity::wall_time, &Timing::wall_time},
       {"runs", "runs", count(), "Mechanical runs that were made.", &Timing::runs},
       {"reused", "used again", count(), "Mechanical runs that were stored.", &Timing::reused},
-      {"jobs", "jobs", count(), "Runs at once.", &Timing::jobs},
-      {"particle_updates", "particle updates", keys::scientific(2), "Of all runs.",
-       &Timing::particle_updates},
-      {"run_time", "time of runs", keys::fixed(1, second), "Processor time of all runs.", &Timing::run_time},
-      {quantity::updates_per_second, &Timing::updates_per_second}};
+      {"jobs", "jobs", count(), "Runs at once.", &Timing::jobs}};
   return json_of(quantities, timing);
 }
 

@@ -67,19 +67,12 @@ void share_sentences(const std::string& label, std::vector<std::string>& cells,
     for (std::string& cell : cells)
       cell.erase(cell.size() - shared.size() - (cell.size() > shared.size() ? 2 : 0));
   }
-  constexpr std::ptrdiff_t often = 4;
-  for (std::size_t i = 0; i < cells.size(); ++i) {
-    const std::string sentence = cells[i];
-    if (sentence.size() < shortest_shared_sentence || std::ranges::count(cells, sentence) < often) continue;
-    const std::string note = fmt::format("note {}", below.size() + 1);
-    below.push_back(note + ": " + sentence);
-    std::ranges::replace(cells, sentence, note);
-  }
 }
 
 template <class Escape>
 Grid grid_of(const Table& table, Escape escape) {
-  Grid grid{.lines = std::vector<std::vector<std::string>>(table.rows.size() + 1)};
+  Grid grid;
+  grid.lines.resize(table.rows.size() + 1);
   for (const std::size_t place : places_for(table, Audience::people)) {
     const Column& column = table.columns[place];
     std::vector<std::string> cells;
@@ -144,7 +137,8 @@ std::string lines_of(const Grid& grid, const Frame& frame) {
 
 /// The columns of these places.
 Grid part_of(const Grid& grid, const std::vector<std::size_t>& places) {
-  Grid part{.lines = std::vector<std::vector<std::string>>(grid.lines.size())};
+  Grid part;
+  part.lines.resize(grid.lines.size());
   for (const std::size_t place : places) {
     part.columns.push_back(grid.columns[place]);
     for (std::size_t i = 0; i < grid.lines.size(); ++i) part.lines[i].push_back(grid.lines[i][place]);

@@ -46,13 +46,6 @@ std::string finding_of(const Row& verdicts, const Row& critical, const std::stri
       text_of(critical, "critical_gap_with_bounds"));
 }
 
-/// What the word rests on, which stands beside it wherever a picture goes.
-std::string safe_words(const Row& tables, bool is_green) {
-  if (is_green) return "SAFE";
-  const bool invented = !found_in(tables, "demonstration").is_null();
-  return invented ? "SAFE, in a demonstration" : "SAFE, as somebody accepts";
-}
-
 /// With its bounds; where these go far beyond all other gaps the axis ends before, and words say where they
 /// do.
 void add_critical_gap(const Row& critical, Plot& plot) {
@@ -79,15 +72,14 @@ Plot verdict_plot(const Row& tables, const scene::Scene& scene) {
   const double initial = scene.initial_temperature, ignition = scene.charge().kinetics.ignition_temperature;
   const Row &verdicts = found_in(tables, "verdicts"), &critical = found_in(tables, "cases").front();
   const bool is_green =
-      found_in(tables, "demonstration").is_null() &&
       std::ranges::all_of(verdicts, [](const Row& row) { return text_of(row, "accepted").empty(); });
-  const std::string safe = safe_words(tables, is_green);
+  // What the word rests on stands beside it wherever a picture goes.
+  const std::string safe = is_green ? "SAFE" : "SAFE, as somebody accepts";
   Plot plot{.title = finding_of(verdicts, critical, safe),
             .x = {.label = quantity::gap.label()},
             .y = {.label = quantity::temperature_max.label()},
             .width = 1100,
-            .height = 335,
-            .named_in_place = true};
+            .height = 335};
   Row ignited = verdicts;
   std::erase_if(ignited.get_ref<Row::array_t&>(), [](const Row& row) { return !ignites(row); });
   for (Series& series :

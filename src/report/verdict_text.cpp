@@ -43,51 +43,6 @@ void add_off_grid(const study::StudyFile& study, Row& facts) {
   facts["count"] = count;
 }
 
-double percent_of(double share) { return shown_value(share, keys::significant(6, percent)); }
-
-/// What is uncertain as other models would say otherwise.
-void add_model_form(const study::StudyFile& file, Row& facts) {
-  const study::Study& study = file.study;
-  if (std::isfinite(study.model_form_uncertainty))
-    facts["stated_model_form_K"] = study.model_form_uncertainty;
-  std::map<std::string, std::size_t> unknown;
-  if (study.model_form) {
-    facts["model_form_record"] = study.model_form_record;
-    for (const study::ModelAlternative& each : study.model_form->alternatives)
-      facts[each.not_counted.empty() ? "counted" : "not_counted"].push_back(each.name);
-    for (const study::StudyCase& each : file.cases)
-      if (const auto shift = model_form_shift(*study.model_form, each.scene.scene); !std::isfinite(shift.gap))
-        ++unknown[shift.reason];
-  }
-  facts.update({{"model_form_unknown", study::commonest_first(unknown, file.cases.size())},
-                {"model_form_assumed", !study.model_form || !unknown.empty()},
-                {"assumed_model_form_K", study::assumed_model_form},
-                {"calibrated_peak_MPa",
-                 shown_value(study.calibration.scene.load.peak, keys::significant(4, megapascal))}});
-}
-
-/// A cited limit beside the case that stands nearest to it, if there is one.
-struct LimitRow {
-  study::LimitComparison comparison;
-  std::optional<study::StudyCase> input = {};
-  const study::CriticalGap* critical = nullptr;
-};
-
-const Quantities<LimitRow> limit_quantities{
-    {"limit", "limit", keys::significant(6, centimetre), "Limit of the gap that the source states.",
-     &LimitRow::comparison, &study::LimitComparison::limit, &study::CitedLimit::gap},
-    {named("limit_peak_pressure", headed("at", quantity::peak_pressure)), &LimitRow::comparison,
-     &study::LimitComparison::limit, &study::CitedLimit::peak_pressure},
-    {"source", "source", text(), "Who states it.", &LimitRow::comparison, &study::LimitComparison::limit,
-     &study::CitedLimit::source},
-    {headed("computed at", quantity::peak_pressure), &LimitRow::input, &study::StudyCase::peak_pressure},
-    {quantity::case_name, &LimitRow::input, &study::StudyCase::label},
-    {for_programs(quantity::critical_gap), &LimitRow::critical, value_of},
-    {quantity::critical_gap_reads_as, &LimitRow::critical, reads_as},
-    {"difference", "computed minus cited", keys::significant(2, centimetre),
-     "Critical gap minus the limit, where the pressures agree.", &LimitRow::comparison,
-     &study::LimitComparison::difference}};
-
 /// One cause that makes the critical gap of a case uncertain.
 struct ShareRow {
   const NamedGap* of;
@@ -125,29 +80,19 @@ Quantities<study::GapVerdict> verdict_quantities(const study::Study& study) {
       {temperature_max_place, &GapVerdict::maximum, &Peak::point},
       {temperature_max_time, &GapVerdict::maximum, &Peak::time},
       {temperature_early(study.early_time), &GapVerdict::early, &Peak::temperature},
-      {for_programs(temperature_early_place), &GapVerdict::early, &Peak::point},
       {for_programs(Column{"spread", "spread", fixed(1, kelvin),
                            "Hottest less coldest station at the end of what is read."}),
        &GapVerdict::spread},
-      {for_programs(Column{"spread_early", "early spread", fixed(1, kelvin), "The same at early_time."}),
-       &GapVerdict::early_spread},
-      {for_programs(temperature_max_inert), &GapVerdict::heated},
       {always({"margin", "margin", fixed(2, kelvin), "Ignition temperature less T max."}),
        &GapVerdict::margin},
       {always(uncertainty), &GapVerdict::uncertainty, &Uncertainty::total},
       {share_of_uncertainty("computation", "of computation",
                             "Of it: sampling, integration, mesh, step, scaling, and sliding on the base."),
        &GapVerdict::uncertainty, &Uncertainty::computed},
-      {for_programs(share_of_uncertainty("sliding", "of sliding",
-                                         "Of the computation: what temperatures leave out of sliding.")),
-       &GapVerdict::uncertainty, &Uncertainty::sliding},
       {share_of_uncertainty("fit", "of fit", "Of it: how well the calibrated constants are known."),
        &GapVerdict::uncertainty, &Uncertainty::fit},
       {share_of_uncertainty("inputs", "of inputs", "Of it: how well load, gap and others are known."),
        &GapVerdict::uncertainty, &Uncertainty::inputs},
-      {for_programs(share_of_uncertainty("load_curve", "of load curve",
-                                         "Of the inputs: the peak of a measured pressure curve.")),
-       &GapVerdict::uncertainty, &Uncertainty::load_curve},
       {share_of_uncertainty("model_form", "of model form", "Of it: what other models would say."),
        &GapVerdict::uncertainty, &Uncertainty::model_form},
       {verdict, &GapVerdict::judgement, &Judgement::verdict},
@@ -257,25 +202,6 @@ std::string reads_as(const study::CriticalGap& gap) {
                                                            : gap_or_bound_text(gap.indicative));
 }
 
-std::vector<Column> cited_limit_columns() { return keys::described(limit_quantities); }
-
-Table cited_limit_table(const study::StudyFile& study,
-                        const std::vector<const study::CriticalGap*>& critical) {
-  if (study.study.cited_limits.empty()) return {};
-  std::vector<LimitRow> rows;
-  bool chosen = false;
-  for (study::LimitComparison& each : study::compare_with_limits(study, critical)) {
-    chosen = chosen || each.cases > 1;
-    const auto nearest = each.nearest;
-    rows.push_back({std::move(each)});
-    if (nearest) rows.back() = {rows.back().comparison, study.cases[*nearest], critical[*nearest]};
-  }
-  return table_of("Cited limits of the gap", limit_quantities, rows,
-                  noted("cited_limits",
-                        {{"slack_percent", shown_value(study::pressure_slack, keys::significant(6, percent))},
-                         {"chosen", chosen}}));
-}
-
 std::string friction_remark(const study::StudyFile& study) {
   const scene::Scene& scene = study.scene.scene;
   Row facts{{"closure", study::to_string(scene.surface.friction)},
@@ -285,13 +211,6 @@ std::string friction_remark(const study::StudyFile& study) {
   for (const char* key : {"friction.localisation", "gap.exchange_time", "kinetics.ignition_temperature"})
     if (varies(study.study, key)) facts["varied"].push_back(fmt::format("`{}`", key));
   return fmt::format("{}\n", fmt::join(noted("friction", facts), "\n"));
-}
-
-study::GapOrBound gap_or_bound_in(const std::string& text) {
-  for (const study::GapOrBound bound : {study::no_ignition, 0.0})
-    if (text == gap_or_bound_text(bound)) return bound;
-  const auto gap = scene::parse_value(text, {.dimension = scene::Dimension::length}, {});
-  return gap ? std::get<double>(*gap) : study::not_a_number;
 }
 
 std::optional<Measured> measured_gap(const study::CriticalGap& gap) {
@@ -311,33 +230,6 @@ Table gap_share_table(const std::vector<NamedGap>& cases) {
     for (const study::GapShare& share : each.gap->shares) rows.push_back({&each, &share});
   return table_of("What makes the critical gap uncertain", share_quantities, rows,
                   noted("gap_shares", {{"coverage", study::coverage_factor}}));
-}
-
-std::string uncertainty_remark(const study::StudyFile& file) {
-  const study::Study& study = file.study;
-  const study::NumericalUncertainty numerical = study::numerical_uncertainty_of(file);
-  const study::CalibrationEvidence& evidence = study.calibration.evidence;
-  const bool stated = std::isfinite(study.fit_uncertainty);
-  Row facts{{"largest_K", numerical.largest},
-            {"source", numerical.source},
-            {"heat_exponent", study::heat_exponent},
-            // Where that of the calibrated constants comes from, and how it grows.
-            {"fit_K", stated ? study.fit_uncertainty : evidence.fit_uncertainty},
-            {"fit_stated", stated},
-            {"friction_rise_K", evidence.friction_rise},
-            {"air_rise_K", evidence.air_rise},
-            {"other_load_shape_K", study::assumed_other_load_shape},
-            {"other_numerics_K", study::assumed_numerical_uncertainty},
-            // What is not known of the launch.
-            {"load_spread_percent", percent_of(study::assumed_load_spread)},
-            {"interpolated", study.raised_load == study::RaisedLoad::interpolated},
-            {"least_percent", percent_of(study::least_load_ratio - 1.0)},
-            {"most_percent", percent_of(study::largest_load_ratio - 1.0)},
-            {"pulse_spread_percent", percent_of(study::assumed_pulse_spread)},
-            {"temperature_spread_K", study::assumed_temperature_spread}};
-  if (std::isfinite(study.input_uncertainty)) facts["inputs_K"] = study.input_uncertainty;
-  add_model_form(file, facts);
-  return fmt::format("{}", fmt::join(noted("uncertainty", facts), " "));
 }
 
 std::string used_for(const study::Reference& published) {

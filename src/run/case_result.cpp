@@ -9,8 +9,8 @@ namespace launchsafe::run {
 std::string to_string(RunStatus status) {
   // In the order of RunStatus.
   constexpr std::array words{
-      "completed",   "non-finite", "energy drift",    "time step collapse",     "particles left the grid",
-      "interrupted", "timed out",  "cells distorted", "outside of the gas law", "flame beyond sound"};
+      "completed",   "non-finite", "energy drift",    "time step collapse",    "particles left the grid",
+      "interrupted", "timed out",  "cells distorted", "outside of the gas law"};
   static_assert(words.size() == static_cast<std::size_t>(last_status) + 1);
   return words.at(static_cast<std::size_t>(status));
 }

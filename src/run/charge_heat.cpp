@@ -25,7 +25,7 @@ TraceRecorder::TraceRecorder(mpm::Simulation& simulation, const scene::Scene& sc
   const double bottom = charges_.empty() ? 0.0 : scene::charge_extent(scene).x_end;
   for (const Charge* charge : charges_)
     if (scene.bodies[static_cast<std::size_t>(charge->particles.body)].x_end >= bottom)
-      add_bottom_row(*charge, scene.symmetry == scene::Symmetry::axisymmetric);
+      add_bottom_row(*charge);
   normalise(bottom_);
   if (!bottom_.empty()) {
     add_stations(scene);
@@ -55,11 +55,11 @@ std::vector<TraceRecorder::Share> TraceRecorder::shares_at(const Charge& charge,
   return shares;
 }
 
-void TraceRecorder::add_bottom_row(const Charge& charge, bool axisymmetric) {
+void TraceRecorder::add_bottom_row(const Charge& charge) {
   const mpm::Lattice& lattice = charge.particles.lattice;
   for (int j = 0; j < lattice.rows(); ++j) {
     const double r = lattice.r_of(j);
-    const double area = (axisymmetric ? 2.0 * std::numbers::pi * r : 1.0) * lattice.length_r(j);
+    const double area = 2.0 * std::numbers::pi * r * lattice.length_r(j);
     for (Share share : shares_at(charge, lattice.x_end(), r)) {
       share.weight *= area;
       bottom_.push_back(share);
@@ -69,7 +69,6 @@ void TraceRecorder::add_bottom_row(const Charge& charge, bool axisymmetric) {
 
 /// Particles by the volume of their rectangles at rest that lies in the station.
 void TraceRecorder::add_stations(const scene::Scene& scene) {
-  const bool axisymmetric = scene.symmetry == scene::Symmetry::axisymmetric;
   for (const scene::StationExtent& extent : scene::stations_of(scene)) {
     std::vector<Share> shares;
     for (const Charge* charge : charges_) {
@@ -79,7 +78,7 @@ void TraceRecorder::add_stations(const scene::Scene& scene) {
         for (int j = 0; j < lattice.rows(); ++j) {
           const auto [r_begin, r_end] = overlap(lattice.r_edges, j, extent.r_begin, extent.r_end);
           if (!(x_end > x_begin) || !(r_end > r_begin)) continue;
-          const double radius = axisymmetric ? 0.5 * (r_begin + r_end) : 1.0;
+          const double radius = 0.5 * (r_begin + r_end);
           shares.push_back({charge, lattice.slot(i, j), (x_end - x_begin) * (r_end - r_begin) * radius});
         }
       }
@@ -87,8 +86,8 @@ void TraceRecorder::add_stations(const scene::Scene& scene) {
     if (shares.empty()) continue;
     normalise(shares);
     const double width = extent.r_end - extent.r_begin, middle = 0.5 * (extent.r_begin + extent.r_end);
-    trace_.stations.push_back({extent.name, extent.x_end, middle,
-                               width * (axisymmetric ? 2.0 * std::numbers::pi * middle : 1.0), false});
+    trace_.stations.push_back(
+        {extent.name, extent.x_end, middle, width * (2.0 * std::numbers::pi * middle), false});
     shares_.push_back(std::move(shares));
   }
 }
@@ -115,11 +114,10 @@ double TraceRecorder::measure_bottom_pressure(const mpm::Simulation& simulation)
 }
 
 void TraceRecorder::accumulate(const mpm::Simulation& simulation, double dt) {
-  const double bottom = measure_bottom_pressure(simulation), chamber = simulation.chamber_pressure();
+  const double bottom = measure_bottom_pressure(simulation);
   bottom_integral_ += 0.5 * dt * (bottom_pressure_ + bottom);
-  chamber_integral_ += 0.5 * dt * (chamber_pressure_ + chamber);
   bottom_pressure_ = bottom;
-  chamber_pressure_ = chamber;
+  chamber_pressure_ = simulation.chamber_pressure();
   heat_stations();
 }
 
@@ -128,13 +126,12 @@ void TraceRecorder::sample(const mpm::Simulation& simulation) {
   trace_.time.push_back(simulation.time());
   trace_.chamber_pressure.push_back(chamber_pressure_);
   trace_.bottom_pressure.push_back(bottom_pressure_);
-  trace_.mean_chamber_pressure.push_back(length > 0.0 ? chamber_integral_ / length : chamber_pressure_);
   trace_.mean_bottom_pressure.push_back(length > 0.0 ? bottom_integral_ / length : bottom_pressure_);
   for (std::size_t closure = 0; closure < trace::traced_closures; ++closure)
     for (std::size_t station = 0; station < trace_.stations.size(); ++station)
       trace_.friction[closure].push_back(friction(closure, station));
   interval_begin_ = simulation.time();
-  bottom_integral_ = chamber_integral_ = 0.0;
+  bottom_integral_ = 0.0;
 }
 
 /// Strain is averaged as a tensor before its norm is taken: that of one particle beside a corner never
@@ -150,45 +147,24 @@ void TraceRecorder::heat_stations() {
 }
 
 SteppedSkin::SteppedSkin(const scene::Scene& scene, double gap, const TraceRecorder& recorder)
-    : model_(surface::skin_model(scene)),
-      after_ignition_(model_),
-      closure_(static_cast<std::size_t>(scene.surface.friction)) {
-  after_ignition_.kinetics.ignition_temperature = model_.kinetics.burnt_temperature;
+    : model_(surface::skin_model(scene)), closure_(static_cast<std::size_t>(scene.surface.friction)) {
   history_.gap = gap;
   const std::size_t stations = recorder.trace().stations.size();
   points_.assign(stations, surface::SkinPoint{model_.initial_temperature});
-  unburnt_ = points_;
   friction_.assign(stations, 0.0);
-  air_pressure_ = pressure_of(recorder, scene::PressureHistory(scene.load).at(0.0));
+  air_pressure_ = recorder.bottom_pressure();
   record(recorder);
-}
-
-void SteppedSkin::continue_from(const surface::SkinHistory& traced, const TraceRecorder& recorder,
-                                double chamber_pressure) {
-  history_ = traced;
-  const std::size_t last = (traced.time.size() - 1) * points_.size();
-  for (std::size_t s = 0; s < points_.size(); ++s) {
-    points_[s] = unburnt_[s] = surface::SkinPoint{traced.temperature[last + s]};
-    if (closure_ < trace::traced_closures) friction_[s] = recorder.friction(closure_, s);
-  }
-  air_pressure_ = pressure_of(recorder, chamber_pressure);
 }
 
 void SteppedSkin::advance(const mpm::Simulation& simulation, const TraceRecorder& recorder, double dt) {
   const double begin = materials::adiabatic_temperature(model_.surface.air, air_pressure_);
-  air_pressure_ = pressure_of(recorder, simulation.chamber_pressure());
+  air_pressure_ = recorder.bottom_pressure();
   const double end = materials::adiabatic_temperature(model_.surface.air, air_pressure_);
   for (std::size_t s = 0; s < points_.size(); ++s) {
-    const double friction = heating(recorder, s, dt);
-    surface::SkinPoint &point = points_[s], &unburnt = unburnt_[s];
+    surface::SkinPoint& point = points_[s];
     const bool had_ignited = point.ignited;
-    point = surface::advance_skin(model_, history_.gap, point, dt, begin, end, friction);
-    unburnt = had_ignited
-                  ? surface::advance_skin(after_ignition_, history_.gap, unburnt, dt, begin, end, friction)
-                  : point;
+    point = surface::advance_skin(model_, history_.gap, point, dt, begin, end, heating(recorder, s, dt));
     if (had_ignited || !point.ignited) continue;
-    unburnt.temperature = std::min(model_.kinetics.ignition_temperature, model_.kinetics.burnt_temperature);
-    unburnt.ignited = false;
     if (!history_.ignition && !recorder.trace().stations[s].observation)
       history_.note_ignition(s, simulation.time() - dt + point.ignition_time, point.chemical_share);
   }
@@ -198,10 +174,6 @@ void SteppedSkin::record(const TraceRecorder& recorder) {
   history_.time.push_back(recorder.trace().time.back());
   history_.air_temperature.push_back(materials::adiabatic_temperature(model_.surface.air, air_pressure_));
   for (const surface::SkinPoint& point : points_) history_.temperature.push_back(point.temperature);
-}
-
-double SteppedSkin::pressure_of(const TraceRecorder& recorder, double chamber) const {
-  return model_.surface.air_pressure == scene::AirPressure::chamber ? chamber : recorder.bottom_pressure();
 }
 
 double SteppedSkin::heating(const TraceRecorder& recorder, std::size_t station, double dt) {

@@ -37,23 +37,13 @@ inline void add(materials::SlidingStep& step, const mpm::Body<materials::Charge>
       step.inelastic + weight * (e - (0.5 / charge.law.shear_modulus()) * deviator(p.stress_change));
 }
 
-/// What the recorder of a run has seen so far, and one that goes on from a checkpoint takes over.
-struct SeenByRecorder {
-  trace::BottomTrace trace_;
-  std::array<std::vector<double>, trace::traced_closures> heat_;  ///< by closure and station, J/m3
-  double bottom_pressure_ = 0, chamber_pressure_ = 0;             ///< Pa, at the present state
-  double bottom_integral_ = 0, chamber_integral_ = 0;             ///< Pa s, over the present interval
-  double interval_begin_ = 0;                                     ///< s
-};
-
 /// Stations tile the charge's bottom by the width that the scene states, down to the depth that it states;
 /// the scene's observation points come after them. A scene without a charge has none, and its trace holds the
 /// chamber pressure only.
-class TraceRecorder : SeenByRecorder {
+class TraceRecorder {
  public:
   TraceRecorder(mpm::Simulation& simulation, const scene::Scene& scene);
 
-  void continue_from(const TraceRecorder& other) { SeenByRecorder::operator=(other); }
   /// Takes in the step that has just been done (its end state; dt in s).
   void accumulate(const mpm::Simulation& simulation, double dt);
   /// Appends a sample of the present state and starts the next interval.
@@ -75,7 +65,7 @@ class TraceRecorder : SeenByRecorder {
   };
   /// Linear in x and in r between the centres of the four nearest particles, continued to the charge's faces.
   static std::vector<Share> shares_at(const Charge& charge, double x, double r);
-  void add_bottom_row(const Charge& charge, bool axisymmetric);
+  void add_bottom_row(const Charge& charge);
   void add_stations(const scene::Scene& scene);
   void add_observation_point(const scene::ObservationPoint& point);
   void heat_stations();
@@ -85,18 +75,18 @@ class TraceRecorder : SeenByRecorder {
   std::vector<Share> bottom_;               ///< weights sum to 1
   std::vector<std::vector<Share>> shares_;  ///< by station
   double floor_ = 0;                        ///< Pa: the air's initial pressure
+  trace::BottomTrace trace_;
+  std::array<std::vector<double>, trace::traced_closures> heat_;  ///< by closure and station, J/m3
+  double bottom_pressure_ = 0, chamber_pressure_ = 0;             ///< Pa, at the present state
+  double bottom_integral_ = 0;                                    ///< Pa s, over the present interval
+  double interval_begin_ = 0;                                     ///< s
 };
 
-/// A station that ignites is at T2 from then on; with two-way coupling its unburnt part
-/// is followed on: it is heated as before, reacts by the Arrhenius law, and has burnt as a whole at T2.
+/// A station that ignites is at T2 from then on.
 class SteppedSkin {
  public:
   /// `gap` in m.
   SteppedSkin(const scene::Scene& scene, double gap, const TraceRecorder& recorder);
-
-  /// Goes on from a skin that was integrated on the recorder's trace, whose last sample is the present state.
-  void continue_from(const surface::SkinHistory& traced, const TraceRecorder& recorder,
-                     double chamber_pressure);
 
   /// Takes in the step of dt (s) that has just been done.
   void advance(const mpm::Simulation& simulation, const TraceRecorder& recorder, double dt);
@@ -107,23 +97,19 @@ class SteppedSkin {
   bool ignited() const { return history_.ignition.has_value(); }
   double ignition_time() const { return history_.ignition->time; }  ///< s, of the first
   bool ignited(std::size_t station) const { return points_[station].ignited; }
-  /// Temperature (K) of what has not burnt of a station's skin: T2 where all of it has.
-  double unburnt_temperature(std::size_t station) const { return unburnt_[station].temperature; }
-  /// K, with the burnt part.
+  /// K.
   double temperature(std::size_t station) const { return points_[station].temperature; }
   const surface::SkinModel& model() const { return model_; }
 
   surface::SkinHistory take() { return std::move(history_); }
 
  private:
-  double pressure_of(const TraceRecorder& recorder, double chamber) const;
   double heating(const TraceRecorder& recorder, std::size_t station, double dt);
 
   surface::SkinModel model_;
-  surface::SkinModel after_ignition_;  ///< of what has not burnt
   std::size_t closure_;
   surface::SkinHistory history_;
-  std::vector<surface::SkinPoint> points_, unburnt_;  ///< by station
+  std::vector<surface::SkinPoint> points_;  ///< by station
   std::vector<double> friction_;
   double air_pressure_ = 0;
 };
@@ -134,11 +120,6 @@ class SteppedSkin {
 class BulkHeat {
  public:
   explicit BulkHeat(mpm::Simulation& simulation);
-  /// Takes over what another one of the same mechanics has seen so far.
-  void continue_from(const BulkHeat& other) {
-    friction_ = other.friction_;
-    time_ = other.time_;
-  }
   /// Takes in the friction of the step that has just been done.
   void accumulate(const mpm::Simulation& simulation);
   void advance_to(mpm::Simulation& simulation, double time);

@@ -59,7 +59,7 @@ double next_time(double next, double interval, double time) {
 
 Runner::Runner(const scene::Scene& scene, const RunOptions& options, std::optional<double> skin_gap)
     : options_(options),
-      simulation_(scene, options.threads),
+      simulation_(scene),
       recorder_(simulation_, simulation_.scene()),
       heat_(simulation_),
       skin_gap_(skin_gap) {
@@ -67,41 +67,8 @@ Runner::Runner(const scene::Scene& scene, const RunOptions& options, std::option
   couples_back_ = skin_gap && scene.coupling == scene::Coupling::two_way;
   result_.particles = simulation_.particles();
   simulation_.for_each_body([&](const mpm::ParticleFields& p) {
-    add_mass(result_.masses, scene.bodies[static_cast<std::size_t>(p.body)].material,
-             mpm::mass_of(p, scene.symmetry));
+    add_mass(result_.masses, scene.bodies[static_cast<std::size_t>(p.body)].material, mpm::mass_of(p));
   });
-}
-
-void Runner::continue_from(const Runner& other) {
-  simulation_.continue_from(other.simulation_);
-  recorder_.continue_from(other.recorder_);
-  heat_.continue_from(other.heat_);
-  result_ = other.result_;
-  result_.steps_before = result_.steps;
-  first_step_ = other.first_step_;
-  time_step_ = other.time_step_;
-  next_sample_ = other.next_sample_;
-  monitor_ = other.monitor_;
-  monitor_.duration = launch_time_;
-  longer_ = other.longer_;
-  if (launch_time_ == longer_.duration) monitor_ = std::exchange(longer_, {});
-  snapshots_ = other.snapshots_;
-  largest_energy_ = other.largest_energy_;
-  if (!surface_) return;
-  const scene::Scene& scene = simulation_.scene();
-  surface_->continue_from(surface::integrate_skin(surface::skin_model(scene), recorder_.trace(), *skin_gap_),
-                          recorder_, simulation_.chamber_pressure());
-}
-
-void Runner::keep_checkpoints(std::size_t enough) {
-  checkpoints_ = std::make_shared<Checkpoints>();
-  enough_checkpoints_ = enough;
-  if (const auto longer = scene::longer_launch(simulation_.scene().load))
-    longer_.duration = scene::end_time(*longer);
-}
-
-double Runner::time_of_checkpoint(std::size_t index, double duration) {
-  return duration * static_cast<double>(index + 1) / scene::parts_of_launch;
 }
 
 void Runner::end_with_snapshot(double time) {
@@ -115,12 +82,9 @@ void Runner::end_with_snapshot(double time) {
 MechanicsResult Runner::run() {
   const FlushDenormals flush;
   const double processor_start = thread_processor_time();
-  if (result_.steps == 0) {
-    first_step_ = time_step_ = simulation_.stable_time_step();
-    monitor_.take(simulation_, time_step_);
-    if (longer_.duration > 0.0) longer_.take(simulation_, time_step_);
-    take_due_snapshots();
-  }
+  first_step_ = time_step_ = simulation_.stable_time_step();
+  take_monitor_sample(time_step_);
+  take_due_snapshots();
   while (!is_done() && result_.status == RunStatus::completed) {
     if (burning_ || result_.steps % steps_per_check == 0) {
       time_step_ = simulation_.stable_time_step();
@@ -128,24 +92,19 @@ MechanicsResult Runner::run() {
       if (result_.status != RunStatus::completed) break;
     }
     // The last step ends on the duration; the one before shares what is left, so that neither is tiny.
-    double longest = time_step_;
-    if (burning_) longest = std::min(longest, burning_->longest_step());
     const double remaining = end_ - simulation_.time();
-    const double dt = remaining <= longest ? remaining : std::min(longest, 0.5 * remaining);
+    const double dt = remaining <= time_step_ ? remaining : std::min(time_step_, 0.5 * remaining);
     check_step(dt);
     if (result_.status == RunStatus::completed) advance(dt);
   }
-  monitor_.take(simulation_, time_step_);
+  take_monitor_sample(time_step_);
   if (result_.status == RunStatus::completed) check_energy(energy_of(simulation_));
   result_.end_time = simulation_.time();
   result_.limiters = count_limited(simulation_);
   result_.interfaces = interfaces_of(simulation_);
   result_.wall_time = seconds_since(start_);
   result_.processor_time = thread_processor_time() - processor_start;
-  if (const mpm::TotalLagrangian* form = simulation_.total_lagrangian())
-    result_.processor_time += form->helpers_processor_time();
   result_.trace = recorder_.take();
-  result_.monitor = std::move(monitor_.samples);
   result_.snapshots = snapshots_.finish();
   return std::move(result_);
 }
@@ -174,16 +133,15 @@ Snapshot Runner::snapshot() const {
   for (std::size_t s = 0; s < stations.size(); ++s) {
     if (stations[s].observation) continue;
     skin.temperature.push_back(surface_->temperature(s));
-    if (burning_) skin.reaction_degree.push_back(burning_->reaction_degree(*surface_, s));
+    if (burning_) skin.reaction_degree.push_back(burning_->reaction_degree(s));
   }
   return shot;
 }
 
-/// Ignition and the end of burning at the end of the step that has them.
+/// Ignition at the end of the step that has it.
 void Runner::take_snapshots_of_events(bool samples) {
   const auto take = [this] { return snapshot(); };
   if (surface_ && surface_->ignited()) snapshots_.take_event(scene::Event::ignition, take);
-  if (burning_ && burning_->skin_has_burnt()) snapshots_.take_event(scene::Event::burnt, take);
   if (samples) snapshots_.look_for_events(simulation_, take);
 }
 
@@ -197,59 +155,37 @@ void Runner::advance(double dt) {
   recorder_.accumulate(simulation_, dt);
   heat_.accumulate(simulation_);
   if (surface_) surface_->advance(simulation_, recorder_, dt);
-  if (couples_back_) burn(dt);
+  if (couples_back_) burn();
   const double time = simulation_.time();
   const bool last = finished();
   const bool samples = time >= next_sample_ || last;
   if (samples) {
     recorder_.sample(simulation_);
     if (surface_) surface_->record(recorder_);
-    if (burning_) burning_->record(simulation_, recorder_, *surface_);
+    if (burning_) burning_->record(simulation_, recorder_);
     heat_.advance_to(simulation_, time);
     next_sample_ = next_time(next_sample_, scene.output.trace_interval, time);
   }
   take_due_snapshots();
   if (simulation_.scene().output.asks_for_snapshots()) take_snapshots_of_events(samples);
-  if (time >= monitor_.next && !last) monitor_.take(simulation_, dt);
-  if (longer_.duration > 0.0 && time >= longer_.next) longer_.take(simulation_, dt);
-  if (samples && !last && checkpoints_) take_due_checkpoint();
+  if (time >= next_monitor_ && !last) take_monitor_sample(dt);
 }
 
-bool Runner::is_done() const {
-  return finished() || (checkpoints_ && checkpoints_->runs.size() >= enough_checkpoints_) ||
-         (ends_with_snapshots_ && snapshots_.done());
-}
-
-void Runner::take_due_checkpoint() {
-  if (simulation_.time() < time_of_checkpoint(checkpoints_->runs.size(), launch_time_)) return;
-  auto copy = std::make_unique<Runner>(simulation_.scene(), RunOptions{}, std::nullopt);
-  copy->continue_from(*this);
-  checkpoints_->runs.push_back(std::move(copy));
-}
+bool Runner::is_done() const { return finished() || (ends_with_snapshots_ && snapshots_.done()); }
 
 /// Lets the charge burn where the skin has ignited. The run ends a stated time after the first ignition,
-/// whether that is before or after the end of the launch, at a stated pressure, or where a flame has no
-/// more charge before it. A flame that outruns sound is none that conduction drives, and ends the run too.
-void Runner::burn(double dt) {
+/// whether that is before or after the end of the launch, or at a stated pressure.
+void Runner::burn() {
   if (!surface_->ignited()) return;
   const scene::Combustion& combustion = simulation_.scene().combustion;
   if (!burning_) {
     burning_.emplace(simulation_, recorder_);
     end_ = surface_->ignition_time() + combustion.duration;
   }
-  burning_->advance(simulation_, *surface_, dt);
-  const double sound = scene::longitudinal_speed(materials::Law(simulation_.scene().charge()));
-  if (!(burning_->fastest_flame() < sound))
-    stop_now(RunStatus::flame_beyond_sound,
-             fmt::format("the kinetics give a flame of {:.3g} m/s; sound in the charge has {:.3g} m/s",
-                         burning_->fastest_flame(), sound));
-  if (burning_->burnt_through()) end_now(CombustionEnd::burnt_through);
-  if (recorder_.bottom_pressure() >= combustion.stop_pressure) end_now(CombustionEnd::pressure);
-}
-
-void Runner::end_now(CombustionEnd end) {
+  burning_->advance(simulation_, *surface_);
+  if (!(recorder_.bottom_pressure() >= combustion.stop_pressure)) return;
   end_ = simulation_.time();
-  combustion_end_ = end;
+  combustion_end_ = CombustionEnd::pressure;
 }
 
 bool Runner::finished() const { return end_ - simulation_.time() <= 1e-12 * launch_time_; }
@@ -260,9 +196,9 @@ void Runner::check() {
   if (seconds_since(start_) > options_.time_limit)
     return stop(RunStatus::timed_out, fmt::format("not done after {:.3g} s", options_.time_limit));
   if (std::isfinite(time_step_) && time_step_ < collapse_share * first_step_)
-    return stop_now(RunStatus::time_step_collapse,
-                    fmt::format("the stable time step fell from {:.3g} s to {:.3g} s{}", first_step_,
-                                time_step_, step_remark(simulation_.scene())));
+    return stop_now(
+        RunStatus::time_step_collapse,
+        fmt::format("the stable time step fell from {:.3g} s to {:.3g} s", first_step_, time_step_));
   check_energy(energy_of(simulation_));
   if (options_.progress && seconds_since(last_report_) > 0.25) {
     last_report_ = Clock::now();
@@ -274,16 +210,15 @@ void Runner::check() {
 void Runner::check_step(double dt) {
   constexpr double shortest_share = 1e-15;
   if (dt >= shortest_share * launch_time_) return;
-  stop_now(
-      std::isnan(dt) ? RunStatus::non_finite : RunStatus::time_step_collapse,
-      fmt::format("with steps of {:.3g} s the launch would not end{}", dt, step_remark(simulation_.scene())));
+  stop_now(std::isnan(dt) ? RunStatus::non_finite : RunStatus::time_step_collapse,
+           fmt::format("with steps of {:.3g} s the launch would not end", dt));
 }
 
 void Runner::check_energy(const EnergyBalance& energy) {
   largest_energy_ = std::max(largest_energy_, energy.scale());
   if (const auto reason = reason_to_stop(simulation_, energy, largest_energy_,
                                          simulation_.scene().numerics.energy_drift_limit))
-    stop_now(reason->status, reason->what + step_remark(simulation_.scene()));
+    stop_now(reason->status, reason->what);
 }
 
 void Runner::stop(RunStatus status, std::string reason) {
@@ -296,10 +231,11 @@ void Runner::stop_now(RunStatus status, const std::string& what) {
   stop(status, fmt::format("at t = {:.6g} ms: {}", 1e3 * simulation_.time(), what));
 }
 
-void Runner::Monitor::take(const mpm::Simulation& simulation, double time_step) {
+/// Samples are evenly spread over the launch.
+void Runner::take_monitor_sample(double time_step) {
   constexpr double samples_of_launch = 500.0;
-  samples.push_back(monitor_sample(simulation, time_step));
-  next = simulation.time() + duration / samples_of_launch;
+  result_.monitor.push_back(monitor_sample(simulation_, time_step));
+  next_monitor_ = simulation_.time() + launch_time_ / samples_of_launch;
 }
 
 }  // namespace launchsafe::run

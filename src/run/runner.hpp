@@ -1,4 +1,4 @@
-// One mechanical run from its begin, or from a checkpoint, to its end.
+// One mechanical run from its begin to its end.
 #pragma once
 
 #include "burning_bottom.hpp"
@@ -15,44 +15,25 @@ class Runner {
  public:
   Runner(const scene::Scene& scene, const RunOptions& options, std::optional<double> skin_gap);
 
-  /// Takes over the state of a run without skin, which stands at a sample of its trace.
-  void continue_from(const Runner& other);
-  /// Keeps copies of this run at the first samples of its trace from `time_of_checkpoint` on; ends with the
-  /// last of `enough` of them.
-  void keep_checkpoints(std::size_t enough = std::numeric_limits<std::size_t>::max());
-  /// Of the checkpoint with that index, s: they divide the launch evenly.
-  static double time_of_checkpoint(std::size_t index, double duration);
   /// Takes a snapshot of this time (s) instead of those that the scene asks for, and ends with it.
   void end_with_snapshot(double time);
 
-  double time() const { return simulation_.time(); }  ///< s, reached
-
   MechanicsResult run();
 
-  std::shared_ptr<const Checkpoints> take_checkpoints() { return std::move(checkpoints_); }
   surface::SkinHistory take_skin() { return surface_->take(); }
   /// Of a run with two-way coupling that ignited, and ended as `mechanics` says.
   std::optional<CombustionHistory> take_combustion(const MechanicsResult& mechanics);
 
  private:
   using Clock = std::chrono::steady_clock;
-  /// Samples over a launch, evenly spread.
-  struct Monitor {
-    double duration = 0;  ///< s, of the launch
-    std::vector<MonitorSample> samples = {};
-    double next = 0;  ///< s
-    void take(const mpm::Simulation& simulation, double time_step);
-  };
-
   void advance(double dt);
-  void take_due_checkpoint();
-  void burn(double dt);
-  void end_now(CombustionEnd end);
+  void burn();
   bool finished() const;
   bool is_done() const;
   void check();
   void check_step(double dt);
   void check_energy(const EnergyBalance& energy);
+  void take_monitor_sample(double time_step);
   void take_due_snapshots();
   void take_snapshots_of_events(bool samples);
   Snapshot snapshot() const;
@@ -73,21 +54,11 @@ class Runner {
   MechanicsResult result_;
   Clock::time_point start_ = Clock::now(), last_report_ = start_;
   double first_step_ = 0, time_step_ = 0;  ///< s
-  std::shared_ptr<Checkpoints> checkpoints_;
-  std::size_t enough_checkpoints_ = 0;
   double next_sample_ = simulation_.scene().output.trace_interval;
-  Monitor monitor_{launch_time_};
-  /// Of the launch that goes on for longer and may continue from the checkpoints, at other instants; without
-  /// a duration where there is none.
-  Monitor longer_;
+  double next_monitor_ = 0;  ///< s
   SnapshotTaker snapshots_{simulation_.scene()};
   bool ends_with_snapshots_ = false;
   double largest_energy_ = least_judged_energy(simulation_.scene());
-};
-
-class Checkpoints {
- public:
-  std::vector<std::unique_ptr<Runner>> runs;  ///< in order of time
 };
 
 }  // namespace launchsafe::run

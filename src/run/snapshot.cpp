@@ -251,7 +251,7 @@ void SnapshotTaker::look_for_events(const mpm::Simulation& simulation, const Tak
   const double slip = largest_slip(simulation);
   if (!(slip > largest_slip_)) return;
   largest_slip_ = slip;
-  std::erase_if(taken_, [](const auto& shot) { return shot->events == std::vector{Event::largest_slip}; });
+  std::erase_if(taken_, [](const auto& shot) { return shot.events == std::vector{Event::largest_slip}; });
   keep(take(), {Event::largest_slip});
 }
 
@@ -263,14 +263,12 @@ void SnapshotTaker::take_event(Event event, const Take& take) {
 
 void SnapshotTaker::keep(Snapshot shot, std::vector<Event> events) {
   shot.events = std::move(events);
-  taken_.push_back(std::make_shared<const Snapshot>(std::move(shot)));
+  taken_.push_back(std::move(shot));
 }
 
 std::vector<Snapshot> SnapshotTaker::finish() {
-  std::vector<Snapshot> all;
-  for (const auto& shot : taken_) all.push_back(*shot);
-  merge_instants(all);
-  return all;
+  merge_instants(taken_);
+  return std::move(taken_);
 }
 
 bool SnapshotTaker::wants(Event event) const { return std::ranges::find(wanted_, event) != wanted_.end(); }

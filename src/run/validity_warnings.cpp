@@ -50,11 +50,6 @@ constexpr double largest_growth_over_flaw = 0.5, largest_crack_work_over_viscous
 /// are held.
 constexpr double largest_crack_over_cell = 5.0, largest_crack_work_of_a_corner = 0.05;
 
-/// In the lab's frame particles of the updated-Lagrangian step cross cells, and friction collects the ripple.
-/// On the 155 mm shell the false heat is 1.3, 3.7, 5.5 K after 14 mm, on cells of 5, 2.5, 1.25 mm, and 65,
-/// 168, 302 K after 137 mm.
-constexpr double most_cells_flown = 4.0;
-
 /// Overlap of faces that slide over the cell. Of the 155 mm shell it stays below 1e-6; where a charge bulges
 /// out past the rim of a smaller body and is driven back over it, overlaps are as large as the bulge.
 constexpr double largest_overlap_over_cell = 1e-3;
@@ -236,9 +231,7 @@ double static_pressure_on_bottom(const Scene& scene, double chamber_pressure) {
   const double bottom = scene::charge_extent(scene).x_end;
   for (const scene::Body& body : scene.bodies) {
     if (!scene::is_charge(scene, body)) continue;
-    const bool ring = scene.symmetry == scene::Symmetry::axisymmetric;
-    const double section =
-        (body.r_end - body.r_begin) * (ring ? std::numbers::pi * (body.r_end + body.r_begin) : 1.0);
+    const double section = (body.r_end - body.r_begin) * (std::numbers::pi * (body.r_end + body.r_begin));
     mass += section * (body.x_end - body.x_begin) * materials::initial_density(scene::law_of(scene, body));
     if (body.x_end >= bottom) area += section;
   }
@@ -314,17 +307,6 @@ void check_steel(const Scene& scene, const MechanicsResult& mechanics, Warnings&
   }
 }
 
-void check_flight(const Scene& scene, const MechanicsResult& mechanics, Warnings& warnings) {
-  if (scene.frame != scene::Frame::lab) return;
-  if (scene.numerics.formulation != scene::Formulation::updated_lagrangian) return;
-  const double cells = scene::rigid_motion(scene, mechanics.end_time).travel / scene.numerics.cell_size;
-  if (!(cells > most_cells_flown)) return;
-  warnings.add(
-      "the projectile flew through {:.3g} cells of a grid at rest: beyond some {:g}, false friction "
-      "heat outgrows the true one",
-      cells, most_cells_flown);
-}
-
 }  // namespace
 
 std::vector<std::string> combustion_validity_warnings(const Scene& scene,
@@ -351,7 +333,7 @@ std::vector<std::string> validity_warnings(const Scene& scene, const MechanicsRe
   const auto hold = [&](std::initializer_list<decltype(&check_history)> checks) {
     for (const auto check : checks) check(scene, mechanics, warnings);
   };
-  hold({check_history, check_flight, check_inertia, check_sliding_inertia});
+  hold({check_history, check_inertia, check_sliding_inertia});
   std::ranges::move(uncovered_load(scene.load), std::back_inserter(warnings));
   hold({check_samples});
   if (scene::has_charge(scene))

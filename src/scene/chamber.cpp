@@ -64,7 +64,7 @@ struct FullRing {
   int first = 0, last = 0;
 };
 
-/// The foremost ring of full radius, or the one around a stated place.
+/// The foremost annulus of full radius, or the one around a stated place.
 std::optional<FullRing> ring_of_band(const CutPlane& plane, const std::optional<double>& stated,
                                      double tolerance) {
   const auto is_full = [&](int column) { return plane.body({column, plane.barrel_row()}).has_value(); };
@@ -136,16 +136,16 @@ Chamber chamber_of(const Scene& scene) {
   for (int row = 0; row < plane.rows(); ++row) behind.push_back({plane.columns() - 1, row});
   std::vector<Cell> gas = behind;
   Chamber chamber;
-  const auto ring = ring_of_band(plane, scene.load.obturation, length_tolerance(scene));
-  if (!ring) {
+  const auto annulus = ring_of_band(plane, scene.load.obturation, length_tolerance(scene));
+  if (!annulus) {
     chamber.unclear = "a place where the shell does not have its full radius";
   } else {
-    chamber.band = plane.x_end(ring->last);
-    for (int column = ring->last + 1; column + 1 < plane.columns(); ++column)
+    chamber.band = plane.x_end(annulus->last);
+    for (int column = annulus->last + 1; column + 1 < plane.columns(); ++column)
       if (!plane.body({column, plane.barrel_row()})) gas.push_back({column, plane.barrel_row()});
     gas = filled_from(plane, std::move(gas));
     const bool passes = std::ranges::any_of(gas, [&](const Cell& cell) {
-      return cell.column == 0 || (cell.row == plane.barrel_row() && cell.column < ring->first);
+      return cell.column == 0 || (cell.row == plane.barrel_row() && cell.column < annulus->first);
     });
     if (passes) chamber.unclear = "a shell through which the chamber's gas passes the driving band";
   }
@@ -169,12 +169,11 @@ bool acts_on_rear_alone(const Scene& scene, const Chamber& chamber) {
 }
 
 std::string chamber_text(const Scene& scene, double pressure) {
-  const bool ring = scene.symmetry == Symmetry::axisymmetric;
   const double area = base_area(scene), radius = extent_of(scene).r_end;
-  const double whole = ring ? std::numbers::pi * radius * radius : radius;
-  return fmt::format("on {:.6g} cm2{} along x: {:.6g} MN at {}, {:.4g} % of {}, up to x = {}", 1e4 * area,
-                     ring ? "" : " per metre", 1e-6 * area * pressure, pressure_text(pressure),
-                     100.0 * area / whole, ring ? "pi R^2 p" : "R p", length_text(chamber_of(scene).band));
+  const double whole = std::numbers::pi * radius * radius;
+  return fmt::format("on {:.6g} cm2 along x: {:.6g} MN at {}, {:.4g} % of pi R^2 p, up to x = {}", 1e4 * area,
+                     1e-6 * area * pressure, pressure_text(pressure), 100.0 * area / whole,
+                     length_text(chamber_of(scene).band));
 }
 
 }  // namespace launchsafe::scene

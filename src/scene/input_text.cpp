@@ -1,14 +1,11 @@
-// Text of input: whole files, the one place where they are read; what no reader may see in them, and what
-// they are of; and messages on what is wrong in them.
+// Text of input: whole files, the one place where they are read, and what they are of; and messages on what
+// is wrong in them.
 #include "scene_file.hpp"
 
 #include <boost/locale/utf.hpp>
-#include <fcntl.h>
-#include <sys/stat.h>
-#include <unistd.h>
 
 #include <cerrno>
-#include <memory>
+#include <fstream>
 #include <set>
 #include <system_error>
 
@@ -25,36 +22,11 @@ Place place_at(std::string_view text, std::size_t position, const std::string& f
           1 + static_cast<int>(position - line_begin)};
 }
 
-constexpr std::string_view allowed_file = "a regular file";
-
-/// Closes a descriptor that is open.
-struct Close {
-  void operator()(const int* descriptor) const {
-    if (*descriptor >= 0) ::close(*descriptor);
-  }
-};
-
-/// What a path leads to that is no regular file.
-std::string_view kind_of(const struct stat& status) {
-  if (S_ISDIR(status.st_mode)) return "a folder";
-  if (S_ISFIFO(status.st_mode)) return "a pipe";
-  if (S_ISSOCK(status.st_mode)) return "a socket";
-  return "a device";
-}
-
-InputError unreadable(const Place& place, int reason) {
-  InputError missing = error_at(place, {}, {}, {});
-  missing.file_missing = reason == ENOENT || reason == ENOTDIR;
-  if (missing.file_missing) return missing;
-  return error_at(place, {}, fmt::format("a file that cannot be read ({})", std::strerror(reason)),
-                  "a readable file");
-}
-
-/// What a file is where another one is wanted, and what it is where it is wanted, as materials never are.
+/// What a file is where another one is wanted, and what it is where it is wanted, as a material never is.
 std::pair<const char*, const char*> words_of(InputContent content) {
   if (content == InputContent::study)
     return {"a study, which launchsafe study computes", "a study: a file with the keys kind and scene"};
-  if (content == InputContent::materials) return {"materials, which a scene's material_file names", ""};
+  if (content == InputContent::material) return {"a material, which bodies of a scene name", ""};
   return {"a scene, which launchsafe run computes", "a scene: a file with tables [[body]]"};
 }
 
@@ -63,23 +35,15 @@ constexpr std::size_t longest_word = 200;
 
 bool continues_character(char byte) { return (static_cast<unsigned char>(byte) & 0xC0u) == 0x80u; }
 
-/// Control characters, those of the second block (U+0080 to U+009F) and the two separators of lines and
-/// paragraphs beyond ASCII, as escapes.
+/// Control characters as escapes.
 std::string on_one_line(std::string_view text) {
   std::string line;
-  for (std::size_t i = 0; i < text.size(); ++i) {
-    const auto byte = static_cast<unsigned char>(text[i]);
-    const std::string_view rest = text.substr(i);
-    if (byte < 0x20 || byte == 0x7F) {
-      line += byte == '\n' ? "\\n" : byte == '\t' ? "\\t" : fmt::format("\\x{:02x}", byte);
-    } else if (byte == 0xC2 && rest.size() > 1 && static_cast<unsigned char>(rest[1]) < 0xA0) {
-      line += fmt::format("\\u00{:02x}", static_cast<unsigned char>(text[++i]));
-    } else if (rest.starts_with("\u2028") || rest.starts_with("\u2029")) {
-      line += rest.starts_with("\u2028") ? "\\u2028" : "\\u2029";
-      i += 2;
-    } else {
-      line += text[i];
-    }
+  for (const char each : text) {
+    const auto byte = static_cast<unsigned char>(each);
+    if (byte < 0x20 || byte == 0x7F)
+      line += byte == '\n' ? "\\n" : fmt::format("\\x{:02x}", byte);
+    else
+      line += each;
   }
   return line;
 }
@@ -111,18 +75,10 @@ bool differ_in_meaning(std::string_view a, std::string_view b) {
 }
 
 /// What to suggest in the place of a file that does not exist, named by its path from a folder: such a path
-/// to one of that name in a folder beside it, or to the nearest name there is beside it; empty for none.
+/// to the nearest name there is beside it; empty for none.
 std::string nearest_file(const std::filesystem::path& folder, const std::filesystem::path& name) {
-  const std::filesystem::path beside = folder / name.parent_path();
-  const std::string wanted = name.filename().string();
-  const std::vector<std::string> names = list_folder(beside);
-  if (contains(names, wanted)) return {};  // it is there, as something else
-  std::error_code failure;
-  const auto inner = std::ranges::find_if(names, [&](const std::string& each) {
-    return std::filesystem::is_regular_file(beside / each / wanted, failure);
-  });
-  const std::string near = inner == names.end() ? nearest_of(wanted, names) : *inner + "/" + wanted;
-  return near.empty() ? near : quotable(in_quotes((name.parent_path() / near).string()), longest_quoted);
+  const std::string near = nearest_of(name.filename().string(), list_folder(folder / name.parent_path()));
+  return near.empty() ? near : in_quotes((name.parent_path() / near).string());
 }
 
 }  // namespace
@@ -177,41 +133,35 @@ void check_points(std::string_view toml, const std::string& file) {
 
 Expected<std::string> read_regular_file(const std::filesystem::path& file, std::size_t largest) {
   const Place place{file.string()};
-  struct stat status {};
-  if (::stat(file.c_str(), &status) != 0) return unreadable(place, errno);
-  // Before it is opened, because that alone may do something to a device.
-  if (!S_ISREG(status.st_mode)) return error_at(place, {}, kind_of(status), allowed_file);
-  // Should it have become a pipe by now, opening it does not wait for a writer.
-  const int descriptor = ::open(file.c_str(), O_RDONLY | O_NONBLOCK | O_NOCTTY | O_CLOEXEC);
-  const std::unique_ptr<const int, Close> closed_at_the_end(&descriptor);
-  if (descriptor < 0 || ::fstat(descriptor, &status) != 0) return unreadable(place, errno);
-  if (!S_ISREG(status.st_mode)) return error_at(place, {}, kind_of(status), allowed_file);
-  std::string text;
-  text.reserve(std::min(static_cast<std::size_t>(status.st_size), largest));
-  std::array<char, std::size_t{1} << 16> part;
-  for (;;) {
-    const ssize_t count = ::read(descriptor, part.data(), part.size());
-    if (count < 0 && errno == EINTR) continue;
-    if (count < 0) return unreadable(place, errno);
-    if (count == 0) return text;
-    text.append(part.data(), static_cast<std::size_t>(count));
-    if (text.size() > largest)
-      return error_at(place, {}, fmt::format("a file of more than {} MiB", largest >> 20),
-                      fmt::format("a file of at most {} MiB", largest >> 20));
+  std::error_code failure;
+  const std::filesystem::file_status status = std::filesystem::status(file, failure);
+  if (status.type() == std::filesystem::file_type::not_found) {
+    InputError missing = error_at(place, {}, {}, {});
+    missing.file_missing = true;
+    return missing;
   }
+  // A pipe or a device may never end.
+  if (!failure && !std::filesystem::is_regular_file(status))
+    return error_at(place, {}, std::filesystem::is_directory(status) ? "a folder" : "a pipe or a device",
+                    "a regular file");
+  const std::uintmax_t size = failure ? 0 : std::filesystem::file_size(file, failure);
+  if (size > largest)
+    return error_at(place, {}, fmt::format("a file of more than {} MiB", largest >> 20),
+                    fmt::format("a file of at most {} MiB", largest >> 20));
+  std::string text(size, '\0');
+  std::ifstream stream(file, std::ios::binary);
+  if (failure || !stream.read(text.data(), static_cast<std::streamsize>(size)))
+    return error_at(place, {},
+                    fmt::format("a file that cannot be read ({})", std::generic_category().message(errno)),
+                    "a readable file");
+  return text;
 }
 
-Expected<std::string> read_text_file(const std::filesystem::path& file, std::size_t largest,
-                                     InputContent wanted) {
+Expected<std::string> read_text_file(const std::filesystem::path& file, std::size_t largest) {
   auto text = read_regular_file(file, largest);
-  if (text) return text;
+  if (text || !text.error().file_missing) return text;
   InputError error = text.error();
-  std::vector<std::string> inside;
-  if (wanted != InputContent::unknown)
-    for (const std::string& name : list_folder(file))
-      if (name.ends_with(".toml") && content_of(file / name) == wanted)
-        inside.push_back((file / name).string());
-  error.suggestion = error.file_missing ? nearest_file({}, file) : quoted_list(inside);
+  error.suggestion = nearest_file({}, file);
   return error;
 }
 
@@ -240,9 +190,7 @@ InputContent content_of(const std::filesystem::path& file) {
 }
 
 InputContent content_of(const toml::table& root) {
-  constexpr std::array<std::string_view, 3> of_materials{"material", "contact", "decomposition"};
-  const auto is_of_materials = [&](const auto& each) { return contains(of_materials, each.first.str()); };
-  if (!root.empty() && std::ranges::all_of(root, is_of_materials)) return InputContent::materials;
+  if (root.contains("law")) return InputContent::material;
   if (root.contains("body")) return InputContent::scene;
   return root.contains("kind") || root.contains("scene") ? InputContent::study : InputContent::unknown;
 }
@@ -254,13 +202,11 @@ void check_content(const toml::table& root, const std::string& file, InputConten
 }
 
 std::string quotable(std::string_view text, std::size_t longest) {
-  constexpr std::string_view gap = " ... ";
-  const std::size_t kept = longest > gap.size() ? longest - gap.size() : 0;
+  constexpr std::string_view gap = " ...";
   if (text.size() <= longest) return on_one_line(text);
-  std::size_t head = kept - kept / 4, tail = text.size() - kept / 4;
-  while (head > 0 && continues_character(text[head])) --head;
-  while (tail < text.size() && continues_character(text[tail])) ++tail;
-  return on_one_line(text.substr(0, head)) + std::string(gap) + on_one_line(text.substr(tail));
+  std::size_t kept = longest > gap.size() ? longest - gap.size() : 0;
+  while (kept > 0 && continues_character(text[kept])) --kept;
+  return on_one_line(text.substr(0, kept)) + std::string(gap);
 }
 
 std::string InputError::message() const {
@@ -276,15 +222,13 @@ std::string InputError::message() const {
 }
 
 std::string nearest_of(std::string_view word, const std::vector<std::string>& candidates) {
-  if (word.size() > longest_word) return {};
   const std::string wanted = lower_case(word);
   std::set<std::string> nearest;
   std::size_t fewest = std::min<std::size_t>(2, word.size() / 3);
   for (const std::string& candidate : candidates) {
     const std::string other = lower_case(candidate);
-    const bool lacks_its_table = other.ends_with("." + wanted);
-    if (other.size() > longest_word || (!lacks_its_table && differ_in_meaning(wanted, other))) continue;
-    const std::size_t apart = lacks_its_table ? 0 : letters_apart(wanted, other);
+    if (std::max(wanted.size(), other.size()) > longest_word || differ_in_meaning(wanted, other)) continue;
+    const std::size_t apart = letters_apart(wanted, other);
     if (apart > fewest) continue;
     if (apart < fewest) nearest.clear();
     fewest = apart;

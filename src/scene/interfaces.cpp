@@ -1,4 +1,4 @@
-// The tables [interface.NAME] and [contact.NAME] of a file: how bodies hold the charge.
+// The tables [interface.NAME] of a file: how bodies hold the charge.
 
 #include "scene_file.hpp"
 
@@ -40,41 +40,6 @@ void check_law(const SceneFile& file, const Interface& faces) {
                    "friction with condition = \"sliding\"", "condition = \"sliding\"");
 }
 
-/// The contact that a table [interface.NAME] names, whose values stand for those that are not given there;
-/// one without a name, or values, where it names none.
-NamedContact contact_of(const toml::table& table, const std::string& file,
-                        const std::vector<NamedContact>& contacts) {
-  const toml::node* node = table.get("contact");
-  if (node == nullptr) return {};
-  const auto name = std::get<std::string>(read_value(*node, contact_of_interface_key(), file).or_throw());
-  if (const NamedContact* contact = find_named(contacts, name)) return *contact;
-  const std::vector<std::string> names = names_of(contacts);
-  throw error_at(place_of(*node, file), "contact", found_text(*node),
-                 quoted_list(names) + "; or one that a table [contact.NAME] describes",
-                 nearest_of(name, names));
-}
-
-/// One table [interface.NAME].
-Interface read_interface(const std::string& body, const toml::table& table, const std::string& file,
-                         const std::vector<NamedContact>& contacts, std::vector<Source>& sources,
-                         std::map<std::string, Place>& places) {
-  NamedContact contact = contact_of(table, file, contacts);
-  Interface faces = contact.faces;
-  faces.body = body;
-  std::vector<Key<Interface>> keys = interface_keys();
-  for (Key<Interface>& key : keys) key.required = key.required && contact.name.empty();  // else it gives it
-  for (const auto& [key, place] : read_table(table, keys, {"contact"}, file, faces).or_throw()) {
-    places[fmt::format("interface.{}.{}", body, key)] = place;
-    forget_source(contact.sources, key);
-  }
-  for (Source& source : contact.sources) {
-    for (std::string& key : source.keys) key = fmt::format("interface.{}.{}", body, key);
-    source.citation = fmt::format("{}: {}", contact.name, source.citation);
-    sources.push_back(std::move(source));
-  }
-  return faces;
-}
-
 }  // namespace
 
 bool share_a_face(const Scene& scene, const Body& a, const Body& b) {
@@ -114,16 +79,19 @@ std::vector<std::string> bodies_at_the_charge(const Scene& scene) {
   return names_of(touching);
 }
 
-void read_interfaces(const toml::table& root, const std::string& file,
-                     const std::vector<NamedContact>& contacts, Scene& scene, std::vector<Source>& sources,
+void read_interfaces(const toml::table& root, const std::string& file, Scene& scene,
                      std::map<std::string, Place>& places) {
-  visit_tables(root, "interface", "of the body that touches the charge", file,
-               [&](const std::string& body, const toml::table& table) {
-                 places["interface." + body] = place_of(table, file);
-                 scene.interfaces.push_back(within("interface." + body, [&] {
-                   return read_interface(body, table, file, contacts, sources, places);
-                 }));
-               });
+  visit_tables(
+      root, "interface", "of the body that touches the charge", file,
+      [&](const std::string& body, const toml::table& table) {
+        const std::string name = "interface." + body;
+        places[name] = place_of(table, file);
+        Interface& faces = scene.interfaces.emplace_back(Interface{.body = body});
+        within(name, [&] {
+          for (const auto& [key, place] : read_table(table, interface_keys(), {}, file, faces).or_throw())
+            places[name + "." + key] = place;
+        });
+      });
 }
 
 void check_interfaces(const SceneFile& file) {
@@ -152,24 +120,6 @@ std::vector<InterfaceText> describe_interfaces(const Scene& scene) {
         faces->friction.value_or(0.0));
   }
   return described;
-}
-
-const std::vector<Key<NamedContact>>& contact_keys() {
-  static const std::vector<Key<NamedContact>> keys =
-      keys::joined({{text_key("title", Standing::input, "What the contact is, in words.", "smooth faces",
-                              &NamedContact::title) |
-                     always_plausible("it is for people")},
-                    keys::keys_of_part("", &NamedContact::faces, interface_keys())});
-  return keys;
-}
-
-const KeyDescription& contact_of_interface_key() {
-  static const KeyDescription key =
-      text_key<std::string>("contact", Standing::input,
-                            "Contact by name, whose values stand for those that are not given here.",
-                            "smooth", std::identity{}) |
-      always_plausible("the values are judged");
-  return key;
 }
 
 }  // namespace launchsafe::scene

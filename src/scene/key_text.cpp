@@ -22,46 +22,10 @@ std::string limits_text(const Limits& limits, Dimension dimension) {
   return {};
 }
 
-/// The word under which a value is written to texts that identify what is stored: that of the version that
-/// first had it, so that results of earlier versions are found again.
-const std::string& stored_word(const KeyDescription& key, const std::string& word) {
-  for (const auto& [former, present] : key.former_words)
-    if (word == present) return former;
-  return word;
-}
-
-/// Two values that are allowed: the ends of what is plausible, or else of the range.
-std::pair<double, double> example_ends(const KeyDescription& key) {
-  const Limits &limits = key.limits, &plausible = key.plausible.limits;
-  if (limits.contain(plausible.lowest) && limits.contain(plausible.highest) &&
-      std::isfinite(plausible.highest - plausible.lowest))
-    return {plausible.lowest, plausible.highest};
-  return {limits.contain(limits.lowest) ? limits.lowest : 0.5 * limits.highest, limits.highest};
-}
-
-/// That of the dimension, or of a number that may not be this another one.
-std::string example_of_number(const KeyDescription& key) {
-  const std::string usual(example_of(key.dimension));
-  const bool has_unit = !units_of(key.dimension).empty();
-  const auto value = parse_quantity(has_unit ? usual.substr(1, usual.size() - 2) : usual, key.dimension);
-  if (!value || key.limits.contain(*value)) return usual;
-  const double end = example_ends(key).second;
-  return has_unit ? fmt::format("\"{}\"", format_quantity(end, key.dimension)) : fmt::format("{:g}", end);
-}
-
-/// Those of the usual numbers, in the first unit, that are allowed, or other ones.
-std::string example_of_numbers(const KeyDescription& key, std::vector<double> usual,
-                               std::string_view between) {
+/// Numbers in the first unit, as one text.
+std::string example_of_numbers(const KeyDescription& key, const char* numbers) {
   const auto units = units_of(key.dimension);
-  const std::string unit = units.empty() ? std::string{} : " " + units.front();
-  std::erase_if(usual, [&](double number) {
-    const auto value = parse_quantity(fmt::format("{:g}{}", number, unit), key.dimension);
-    return value && !key.limits.contain(*value);
-  });
-  if (usual.size() > 1) return fmt::format("\"{:g}{}\"", fmt::join(usual, between), unit);
-  const auto [low, high] = example_ends(key);
-  return fmt::format("\"{}{}{}\"", format_quantity(low, key.dimension), between,
-                     format_quantity(high, key.dimension));
+  return fmt::format("\"{}{}\"", numbers, units.empty() ? std::string{} : " " + units.front());
 }
 
 /// As toml++ writes it, which is in single quotes wherever nothing needs an escape.
@@ -96,11 +60,11 @@ std::string example_of(const KeyDescription& key) {
     case KeyKind::text:
       return fmt::format("\"{}\"", key.example);
     case KeyKind::list:
-      return example_of_numbers(key, {0, 1.5, 2}, ", ");
+      return example_of_numbers(key, "0, 1.5, 2");
     case KeyKind::range:
-      return example_of_numbers(key, {0, 2.5}, " to ");
+      return example_of_numbers(key, "0 to 2.5");
     case KeyKind::number:
-      return example_of_number(key);
+      return std::string(example_of(key.dimension));
   }
   return {};
 }
@@ -165,7 +129,7 @@ std::string exact_toml(const KeyDescription& key, const Value& value) {
   if (const auto* number = std::get_if<double>(&value))
     return unit.empty() ? fmt::format("{}", *number) : fmt::format("\"{} {}\"", *number, unit);
   if (const auto* flag = std::get_if<bool>(&value)) return *flag ? "true" : "false";
-  if (const auto* string = std::get_if<std::string>(&value)) return string_as_toml(stored_word(key, *string));
+  if (const auto* string = std::get_if<std::string>(&value)) return string_as_toml(*string);
   const auto& numbers = std::get<std::vector<double>>(value);
   if (numbers.empty()) return "[]";
   return fmt::format("\"{}{}{}\"", fmt::join(numbers, key.kind == KeyKind::range ? " to " : ", "),

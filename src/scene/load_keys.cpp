@@ -21,32 +21,23 @@ auto analytic(bool scales = false) {
   };
 }
 
-/// Whether a peak was given that the measured curve makes useless. A study that gives a scene a curve
-/// replaces its peak.
-bool has_useless_peak(const SceneFile& file) {
-  const auto peak = file.given.find("load.peak"), curve = file.given.find("load.curve");
-  if (peak == file.given.end()) return false;
-  const bool replaced = curve != file.given.end() && curve->second.place.file != file.file &&
-                        peak->second.place.file == file.file;
-  return !replaced;
-}
-
-/// A measured curve beside a peak that would silently do nothing, and one that ends too early. A scene
-/// written back has its curve's points rather than their file, and every key: its peak is no sign of a
-/// mistake.
+/// A measured curve beside a peak that would silently do nothing, and one that ends too early. A study that
+/// gives a scene a curve replaces its peak. A scene written back has its curve's points rather than their
+/// file, and every key: its peak is no sign of a mistake.
 void check_curve_use(const SceneFile& file) {
   const Load& load = file.scene.load;
   if (load.curve_time.empty()) return;
-  if (!load.curve_file.empty() && !load.rescale_to_peak && has_useless_peak(file))
+  const Given *peak = find_in(file.given, "load.peak"), *curve = find_in(file.given, "load.curve");
+  const bool replaced = peak && curve && curve->place.file != file.file && peak->place.file == file.file;
+  if (peak && !replaced && !load.curve_file.empty() && !load.rescale_to_peak)
     throw fault_at(file, "load.peak",
                    pressure_text(load.peak) + " beside a measured curve, which has a peak of its own",
                    "load.curve alone, or both with load.rescale_to_peak = true");
-  if (load.duration && load.curve_time.back() < read_time(load) * (1.0 - 1e-9)) {
-    const char* key = load.curve_file.empty() ? "load.curve_time" : "load.curve";
-    throw fault_at(file, key, "a curve that ends at " + time_text(load.curve_time.back()),
+  if (load.duration && load.curve_time.back() < read_time(load) * (1.0 - 1e-9))
+    throw fault_at(file, load.curve_file.empty() ? "load.curve_time" : "load.curve",
+                   "a curve that ends at " + time_text(load.curve_time.back()),
                    "a curve that lasts until the end of the launch, " + time_text(*load.duration) +
                        ", or no load.duration, with which it ends at its last point");
-  }
 }
 
 /// Numbers of the other analytic shape would silently do nothing.
@@ -97,10 +88,9 @@ constexpr double longest_launch = 1.0;
 
 /// What only an exit gives a meaning to.
 void check_without_exit(const SceneFile& file) {
-  for (const char* key : {"load.exit_decay", "load.muzzle_exit_spread"})
-    if (file.given.contains(key))
-      throw fault_at(file, key, "a number of the muzzle exit, which is not stated",
-                     "only together with load.muzzle_exit or load.muzzle_travel");
+  if (file.given.contains("load.exit_decay"))
+    throw fault_at(file, "load.exit_decay", "a number of the muzzle exit, which is not stated",
+                   "only together with load.muzzle_exit or load.muzzle_travel");
 }
 
 void check_travel(const SceneFile& file) {
@@ -141,20 +131,6 @@ void check_exit(const SceneFile& file) {
                                           time_text(peak), time_text(end));
   if (!(exit > peak)) throw fault_at(file, key, found + ", not after the peak of the load", allowed);
   if (exit > end * (1.0 + 1e-9)) throw fault_at(file, key, found + ", after the end of the load", allowed);
-}
-
-/// Which unit was taken for which other one where a velocity, which grows with the pressure, is so many times
-/// the expected one; empty for none.
-std::string unit_taken_for(double ratio) {
-  constexpr std::array<std::pair<const char*, double>, 5> units{
-      {{"psi", 6894.757}, {"bar", 1e5}, {"MPa", 1e6}, {"ksi", 6.894757e6}, {"kgf/mm2", 9.80665e6}}};
-  constexpr double near = 0.06;  // of the logarithm: the expected velocity is known to 5 %
-  std::string text;
-  for (const auto& [typed, size] : units)
-    for (const auto& [meant, true_size] : units)
-      if (typed != meant && std::abs(std::log(size / true_size / ratio)) < near)
-        text += fmt::format("{}{} typed as {}", text.empty() ? "" : ", or ", meant, typed);
-  return text.empty() ? text : fmt::format("; the ratio, {:.3g}, is that of {}", ratio, text);
 }
 
 /// The first fault of `load.muzzle_exit`, `.muzzle_travel` and what depends on them, or of a load without
@@ -256,10 +232,6 @@ std::vector<Key<Load>> load_keys() {
                                 &Load::muzzle_travel) |
           overriding({"muzzle_exit"}) |
           plausibly(between(0.5, 15), "mortars have a tube of a metre, guns one of 2 to 11 m"),
-      number_key("muzzle_exit_spread", Dimension::time, between(0, 0.1), Standing::assumed,
-                 "Half width (95 %) of the time of the muzzle exit.", &Load::muzzle_exit_spread) |
-          written_where([](const Load& load) { return load.muzzle_exit_spread > 0.0; }) |
-          plausibly(between(0, 2e-3), "ignition varies by some tenths of a millisecond", remark),
       number_key("exit_decay", Dimension::time, above_to(0, 1), Standing::assumed,
                  "Time constant with which the pressure falls after the muzzle exit: by default that "
                  "in which a shell of 155 mm at 800 m/s flies 2.6 calibres.",
@@ -275,13 +247,13 @@ std::vector<Key<Load>> load_keys() {
           always_plausible("the speed that the load gives is judged by load.launch_speed", remark),
       optional_number_key<Load>("obturation", Dimension::length, between(0, 10),
                                 "Place along x of the driving band, up to which the chamber pressure acts on "
-                                "all that faces the chamber; without it the foremost ring of full radius.",
+                                "all that faces the chamber; without it the foremost annulus of full radius.",
                                 &Load::obturation) |
           always_plausible("it has to lie where the shell has its full radius", Role{}),
   };
 }
 
-void check_load(const SceneFile& file) {
+void check_curve(const SceneFile& file) {
   const Load& load = file.scene.load;
   if (load.curve_time.size() != load.curve_pressure.size())
     throw fault_at(file, "load.curve_pressure",
@@ -296,14 +268,18 @@ void check_load(const SceneFile& file) {
     throw fault_at(file, "load.curve_time",
                    fmt::format("{} followed by {}", time_text(*late), time_text(*std::next(late))),
                    "times in increasing order, more than " + time_text(least_curve_interval) + " apart");
+  check_smoothing(file);
+}
+
+void check_load(const SceneFile& file) {
+  const Load& load = file.scene.load;
   check_shape(file);
   check_curve_use(file);
   check_rescaling(file);
-  if (times.empty() && load.rescale_to_peak)
+  if (load.curve_time.empty() && load.rescale_to_peak)
     throw fault_at(file, "load.rescale_to_peak", "true without a measured curve",
                    "true together with load.curve");
-  check_smoothing(file);
-  if (times.empty() && load.base > load.peak)
+  if (load.curve_time.empty() && load.base > load.peak)
     throw fault_at(
         file, file.given.contains("load.base") ? "load.base" : "load.peak",
         fmt::format("a base of {} and a peak of {}", pressure_text(load.base), pressure_text(load.peak)),
@@ -321,8 +297,8 @@ void check_expected_velocity(const SceneFile& file) {
   throw fault_at(file, "load.expected_velocity",
                  fmt::format("{:.4g} m/s, while the load drives the projectile to {}, at {}", *expected,
                              rigid_motion_text(whole, time), time_text(time)),
-                 fmt::format("within {:g} % of that: this, the pressure, a time or the mass is mistyped{}",
-                             100.0 * largest_difference_of_velocity, unit_taken_for(velocity / *expected)));
+                 fmt::format("within {:g} % of that: this, the pressure, a time or the mass is mistyped",
+                             100.0 * largest_difference_of_velocity));
 }
 
 }  // namespace launchsafe::scene

@@ -3,10 +3,7 @@
 #include <fmt/format.h>
 
 #include <cassert>
-#include <iterator>
 #include <numeric>
-#include <set>
-#include <span>
 
 namespace launchsafe::scene {
 namespace {
@@ -25,8 +22,6 @@ class CellDensity {
         refined_(std::move(refined)) {
     std::ranges::sort(refined_);
   }
-
-  bool operator==(const CellDensity&) const = default;
 
   bool even() const { return !(growth_ > 1.0) || refined_.empty(); }
 
@@ -55,14 +50,6 @@ class CellDensity {
   double log_growth_;
   double reach_;  ///< m, from a refined line to where cells are as long as the largest
   std::vector<double> refined_;
-};
-
-/// What the lines of a grid follow from.
-struct GridInput {
-  std::vector<double> x, r;  ///< m, edges of bodies
-  double tolerance = 0;      ///< m
-  CellDensity along_x, along_r;
-  bool operator==(const GridInput&) const = default;
 };
 
 /// The place between two lines up to which there are so many cells.
@@ -117,19 +104,11 @@ std::pair<int, int> cells_beside_anchor(const Mesh& mesh, const Extent& shell) {
   return {cells(mesh.x_anchor - shell.x_begin), cells(shell.x_end - mesh.x_anchor)};
 }
 
-/// Number and lengths of a grid's cells between two of its lines.
-struct CellsBetween {
-  int count = 0;
-  double shortest = 0, longest = 0;  ///< m
-};
-
-CellsBetween cells_between(std::span<const double> lines, double length) {
-  CellsBetween cells{static_cast<int>(lines.size()) - 1, length, 0.0};
-  for (std::size_t i = 0; i + 1 < lines.size(); ++i) {
-    cells.shortest = std::min(cells.shortest, lines[i + 1] - lines[i]);
-    cells.longest = std::max(cells.longest, lines[i + 1] - lines[i]);
-  }
-  return cells;
+/// Number of a grid's cells between two of its lines, and the length of the shortest, m.
+std::pair<int, double> cells_between(const std::vector<double>& lines, double length) {
+  double shortest = length;
+  for (std::size_t i = 0; i + 1 < lines.size(); ++i) shortest = std::min(shortest, lines[i + 1] - lines[i]);
+  return {static_cast<int>(lines.size()) - 1, shortest};
 }
 
 /// Those of a body, or of another part of the scene, by the lines of its grid; the even grid of the
@@ -140,14 +119,14 @@ CellRange cells_within(const Scene& scene, const GridLines& lines, const Part& p
     const Mesh mesh = fit_mesh(scene);
     const int nx = parts_of(part.x_end - part.x_begin, mesh.dx),
               nr = parts_of(part.r_end - part.r_begin, mesh.dr);
-    return {nx, nr, mesh.dx, mesh.dx, mesh.dr, mesh.dr};
+    return {nx, nr, mesh.dx, mesh.dr};
   }
   const double tolerance = length_tolerance(scene);
-  const CellsBetween x =
+  const auto [nx, shortest_x] =
       cells_between(cut(lines.x, part.x_begin, part.x_end, 1, tolerance), part.x_end - part.x_begin);
-  const CellsBetween r =
+  const auto [nr, shortest_r] =
       cells_between(cut(lines.r, part.r_begin, part.r_end, 1, tolerance), part.r_end - part.r_begin);
-  return {x.count, r.count, x.shortest, x.longest, r.shortest, r.longest};
+  return {nx, nr, shortest_x, shortest_r};
 }
 
 GridLines lines_of_lattice(const Scene& scene) {
@@ -159,7 +138,7 @@ CellRange cells_of_all(const Scene& scene, const GridLines& lines) {
   if (scene.numerics.formulation == Formulation::total_lagrangian) return cells_within(scene, lines, all);
   const Mesh mesh = fit_mesh(scene);
   const auto [before, after] = cells_beside_anchor(mesh, all);
-  return {before + after, parts_of(mesh.radius, mesh.dr), mesh.dx, mesh.dx, mesh.dr, mesh.dr};
+  return {before + after, parts_of(mesh.radius, mesh.dr), mesh.dx, mesh.dr};
 }
 
 ParticleCount particles_in(const Scene& scene, const Body& body, const CellRange& cells) {
@@ -169,34 +148,6 @@ ParticleCount particles_in(const Scene& scene, const Body& body, const CellRange
   const Mesh mesh = fit_mesh(scene);
   return {parts_of((body.x_end - body.x_begin) * per_cell, mesh.dx),
           parts_of((body.r_end - body.r_begin) * per_cell, mesh.dr)};
-}
-
-/// Where a body begins or ends along one direction.
-using Edge = double Body::*;
-
-std::vector<GridInterval> intervals(const Scene& scene, const char* along, const std::vector<double>& lines,
-                                    Edge begin, Edge end) {
-  std::set<std::size_t> ends{0, lines.size() - 1};
-  if (scene.numerics.formulation == Formulation::total_lagrangian)
-    for (const Body& body : scene.bodies)
-      ends.insert({nearest_line(lines, body.*begin), nearest_line(lines, body.*end)});
-  std::vector<GridInterval> all;
-  for (auto last = std::next(ends.begin()); last != ends.end(); ++last) {
-    const std::size_t first = *std::prev(last);
-    const double from = lines[first], to = lines[*last];
-    const auto [count, shortest, longest] =
-        cells_between(std::span(lines).subspan(first, *last - first + 1), to - from);
-    GridInterval& interval =
-        all.emplace_back(GridInterval{along, from, to, count, shortest, longest, {}, {}});
-    for (const Body& body : scene.bodies) {
-      const auto is_at = [&, near = 1e-3 * shortest](double place) {
-        return std::min(std::abs(body.*begin - place), std::abs(body.*end - place)) < near;
-      };
-      if (is_at(from)) interval.edge_before.push_back(body.name);
-      if (is_at(to)) interval.edge_behind.push_back(body.name);
-    }
-  }
-  return all;
 }
 
 /// The bodies of the charge that reach its bottom.
@@ -223,33 +174,24 @@ std::vector<double> distinct(std::vector<double> places, double tolerance) {
 }
 
 GridLines grid_lines(const Scene& scene) {
-  std::vector<double> x, r, refined_x = scene.numerics.refined_x, refined_r = scene.numerics.refined_r;
+  std::vector<double> x, r, refined_x, refined_r;
   for (const Body& body : scene.bodies) {
     x.insert(x.end(), {body.x_begin, body.x_end});
     r.insert(r.end(), {body.r_begin, body.r_end});
     if (!is_charge(scene, body)) continue;
-    if (scene.numerics.refined_r.empty()) {
-      refined_r.push_back(body.r_end);
-      if (body.r_begin > 0.0) refined_r.push_back(body.r_begin);
-    }
+    refined_r.push_back(body.r_end);
+    if (body.r_begin > 0.0) refined_r.push_back(body.r_begin);
   }
-  if (refined_x.empty() && has_charge(scene)) refined_x = {charge_extent(scene).x_end};
+  if (has_charge(scene)) refined_x = {charge_extent(scene).x_end};
   const double tolerance = length_tolerance(scene), smallest = scene.numerics.cell_size;
   const double largest_x = scene.numerics.largest_cell;
   const std::vector<StationExtent> stations = stations_of(scene);
   const double largest_r =
       stations.empty() ? largest_x : std::min(largest_x, stations.front().r_end - stations.front().r_begin);
-  GridInput input{std::move(x), std::move(r), tolerance,
-                  CellDensity(smallest, largest_x, scene.numerics.growth_x, std::move(refined_x)),
-                  CellDensity(smallest, largest_r, scene.numerics.growth_r, std::move(refined_r))};
-  // A plan is made several times of every case, and the cases of a study have the same grid as a rule.
-  thread_local std::optional<std::pair<GridInput, GridLines>> last;
-  if (!last || last->first != input) {
-    GridLines lines{lines_through(input.x, tolerance, input.along_x),
-                    lines_through(input.r, tolerance, input.along_r)};
-    last.emplace(std::move(input), std::move(lines));
-  }
-  return last->second;
+  return {lines_through(std::move(x), tolerance,
+                        CellDensity(smallest, largest_x, scene.numerics.growth_x, std::move(refined_x))),
+          lines_through(std::move(r), tolerance,
+                        CellDensity(smallest, largest_r, scene.numerics.growth_r, std::move(refined_r)))};
 }
 
 GridLines lines_at_rest(const Scene& scene) {
@@ -298,12 +240,6 @@ std::size_t nearest_line(const std::vector<double>& lines, double place) {
   if (nearest == lines.end()) --nearest;
   if (nearest != lines.begin() && std::abs(*(nearest - 1) - place) < std::abs(*nearest - place)) --nearest;
   return static_cast<std::size_t>(nearest - lines.begin());
-}
-
-GridIntervals grid_intervals(const Scene& scene) {
-  const GridLines lines = lines_at_rest(scene);
-  return {intervals(scene, "x", lines.x, &Body::x_begin, &Body::x_end),
-          intervals(scene, "r", lines.r, &Body::r_begin, &Body::r_end)};
 }
 
 std::int64_t counted(double count) {

@@ -3,8 +3,6 @@
 
 #include "launchsafe/scene/read_scene.hpp"
 
-#include <span>
-
 namespace launchsafe::scene {
 namespace {
 
@@ -17,7 +15,7 @@ constexpr double bytes_per_number = 8.0;
 constexpr double bytes_of_conduction = 340.0;
 constexpr double bytes_per_cell = 128.0;
 
-/// Setback is exceeded where waves ring through the charge; the bound allows for as much again.
+/// Setback is exceeded where waves run to and fro in the charge; the bound allows for as much again.
 constexpr double pressure_margin = 2.0;
 
 /// What the user forced, or what the plan decides.
@@ -49,7 +47,7 @@ Term plan_conduction(const Scene& scene, const CellRange& cells) {
   const double length = diffusion_length(material.law, end_time(scene.load));
   const double cell = cells.shortest();
   const double share = length / cell;
-  const double bound = scene.physics.conduction_bound;
+  constexpr double bound = 0.05;  // diffusion length over cell size
   return switched(
       scene.physics.conduction, share > bound,
       fmt::format("heat diffuses {} in the {} over the run, {:.3g} of a cell of {}; left out up to {:.3g}",
@@ -63,7 +61,7 @@ Term plan_bulk_reaction(const Scene& scene) {
   const double heating =
       materials::arrhenius_heating(scene.charge().kinetics, scene.charge().specific_heat, temperature) *
       end_time(scene.load);
-  const double bound = scene.physics.reaction_bound;
+  constexpr double bound = 0.1;  // K of self-heating over the run
   return switched(
       scene.physics.bulk_reaction, heating > bound,
       fmt::format("the bulk of the charge stays below {:.4g} K, where the reaction heats it by {:.2g} K "
@@ -135,18 +133,11 @@ Term plan_inertial_scaling(const Scene& scene) {
   return in(factor, std::move(reason), 1.0);
 }
 
-/// s of the launch, at most, that the run of a gap computes before it ignites or the launch ends.
-double time_before_ignition(const Scene& scene) {
-  const bool checkpoints = scene.numerics.formulation == Formulation::total_lagrangian;
-  return end_time(scene.load) *
-         (checkpoints ? std::min(1.0, 1.0 / parts_of_launch + share_before_ignition) : 1.0);
-}
-
-/// Work of such a run over that of the launch.
+/// Work of the run of a gap from the start, with its skin, over that of the launch.
 double coupled_share(const Scene& scene) {
-  // Measured on the 155 mm shell: steps that follow a flame are shorter, and each checks its stability.
+  // Measured on the 155 mm shell: each step that follows an ignition checks its stability.
   constexpr double cost_of_burning = 2.5;
-  return (time_before_ignition(scene) + cost_of_burning * scene.combustion.duration) / end_time(scene.load);
+  return 1.0 + cost_of_burning * scene.combustion.duration / end_time(scene.load);
 }
 
 Term plan_coupling(const Scene& scene) {
@@ -155,10 +146,9 @@ Term plan_coupling(const Scene& scene) {
   if (scene.coupling == Coupling::one_way)
     return out(duration, "one-way: runs end with the launch, and what ignites does not burn");
   return in(duration,
-            fmt::format("two-way: every gap that ignites is computed once more from a checkpoint, at most {} "
-                        "before ignition, and on through combustion for {} or to {} at the bottom",
-                        time_text(time_before_ignition(scene)), time_text(duration),
-                        pressure_text(scene.combustion.stop_pressure)));
+            fmt::format("two-way: every gap that ignites is computed once more, and on through combustion "
+                        "for {} or to {} at the bottom",
+                        time_text(duration), pressure_text(scene.combustion.stop_pressure)));
 }
 
 Term plan_snapshots(const Scene& scene) {
@@ -239,31 +229,6 @@ void settle_materials(Scene& part, const Felt& felt) {
         },
         material.law);
   }
-}
-
-bool is_negative_zero(double number) { return number == 0.0 && std::signbit(number); }
-
-template <class Owner>
-void clear_signs_of_zeros(const std::vector<Key<Owner>>& keys, Owner& owner) {
-  for (const Key<Owner>& key : keys) {
-    Value value = key.get(owner);
-    double* number = std::get_if<double>(&value);
-    auto* list = std::get_if<std::vector<double>>(&value);
-    const std::span<double> numbers = number ? std::span(number, 1)
-                                      : list ? std::span(*list)
-                                             : std::span(number, 0);
-    if (std::ranges::none_of(numbers, is_negative_zero)) continue;
-    std::ranges::replace_if(numbers, is_negative_zero, 0.0);
-    key.set(owner, value);
-  }
-}
-
-void clear_signs_of_zeros(Scene& scene) {
-  clear_signs_of_zeros(scene_keys(), scene);
-  for (Body& body : scene.bodies) clear_signs_of_zeros(body_keys(), body);
-  for (Interface& faces : scene.interfaces) clear_signs_of_zeros(interface_keys(), faces);
-  for (ObservationPoint& point : scene.output.observation_points)
-    clear_signs_of_zeros(observation_point_keys(), point);
 }
 
 }  // namespace
@@ -357,7 +322,7 @@ double transit_time(const Scene& scene) {
          longitudinal_speed(materials::Law(scene.charge()));
 }
 
-/// A load that rises faster rings a shell whose inertia is selective. On the 155 mm shell with steps four
+/// A load that rises faster shakes a shell whose inertia is selective. On the 155 mm shell with steps four
 /// times as long T max changes by 1.1 K or less with pulses of a half, a quarter and an eighth of the
 /// published width (from 10 to 90 % of the peak in 0.6 ms), and with a thirtieth it ignites or does not.
 bool changes_too_fast_for_selective_inertia(const Scene& scene) {
@@ -370,8 +335,7 @@ bool changes_too_fast_for_selective_inertia(const Scene& scene) {
 double usual_selective_inertia(const Scene& scene) {
   constexpr double measured = 4.0;
   const Numerics& numerics = scene.numerics;
-  const bool is_possible =
-      numerics.formulation == Formulation::total_lagrangian && scene.frame == Frame::co_moving;
+  const bool is_possible = numerics.formulation == Formulation::total_lagrangian;
   const bool was_measured = has_charge(scene) && scene.coupling == Coupling::one_way &&
                             scene.load.curve_time.empty() && !(numerics.inertial_scaling > 1.0) &&
                             !changes_too_fast_for_selective_inertia(scene);
@@ -385,8 +349,7 @@ Scene mechanical_part(const Scene& scene) {
   std::erase_if(part.output.snapshot_times, [&](double time) {
     return scene.coupling == Coupling::two_way && time > end_time(scene.load) * (1.0 + 1e-12);
   });
-  std::erase_if(part.output.snapshot_events,
-                [](Event event) { return event == Event::ignition || event == Event::burnt; });
+  std::erase(part.output.snapshot_events, Event::ignition);
   clear_remarks(part);
   part.accepted.clear();
   part.interfaces = sliding_interfaces(scene);
@@ -400,7 +363,6 @@ Scene mechanical_part(const Scene& scene) {
   part.physics = {.conduction = plan.conduction.in ? Switch::on : Switch::off,
                   .bulk_reaction = plan.bulk_reaction.in ? Switch::on : Switch::off};
   std::ranges::sort(part.output.snapshot_times);
-  clear_signs_of_zeros(part);
   return part;
 }
 

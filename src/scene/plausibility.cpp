@@ -256,19 +256,6 @@ const std::vector<DerivedQuantity>& derived_quantities() {
                "Temperature at which self-heating runs away within a second, from Q, Z, E/R and specific "
                "heat.",
                between(400, 700), "explosives do so between 450 and 650 K", of_charge(explosion_temperature)),
-      quantity("gap.air_warmth", Dimension::temperature_difference,
-               "Temperature of the air before launch over that of the shell around it.", between(-5, 5),
-               "air in a narrow gap has the temperature of its walls", of_charge([](const Scene& scene) {
-                 return scene.surface.air.initial_temperature - scene.initial_temperature;
-               })),
-      quantity("gap.gas_law", Dimension::number,
-               "Density over that of an ideal gas of air's molar mass, at the air's pressure and "
-               "temperature before launch.",
-               between(0.99, 1.01), "air at rest obeys the law within a percent",
-               of_charge([](const Scene& scene) {
-                 const materials::AirParameters& air = scene.surface.air;
-                 return air.density * gas_constant_of_air * air.initial_temperature / air.initial_pressure;
-               })),
       quantity("gap.heat_law", Dimension::number,
                "Specific heat over that of an ideal gas of air's molar mass and the given heat ratio.",
                between(0.9, 1.1), "air obeys the law within some percent", of_charge([](const Scene& scene) {

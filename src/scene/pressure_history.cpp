@@ -11,6 +11,13 @@
 #include <complex>
 
 namespace launchsafe::scene {
+
+/// The largest pressure (Pa), when it is (s), and the mark up to which it was looked for beside the largest
+/// mark; infinite where that is the last.
+struct LargestPressure {
+  double time = 0.0, pressure = 0.0, next_mark = std::numeric_limits<double>::infinity();
+};
+
 namespace {
 
 /// Cubics through the points of a curve, monotone between neighbours (Fritsch and Butland); straight lines
@@ -129,20 +136,25 @@ std::vector<double> marks_between(const Load& load, double begin, double end, do
   return marks;
 }
 
-/// Largest value at the marks and, where an average may be larger between them, beside the largest mark,
-/// after the time at which it is.
-std::pair<double, double> largest_at(const std::vector<double>& marks,
-                                     const std::function<double(double)>& pressure, bool smoothed) {
+constexpr double never = std::numeric_limits<double>::infinity();
+
+/// Largest value at the marks and, where an average may be larger between them, beside the largest mark.
+LargestPressure largest_at(const std::vector<double>& marks, const std::function<double(double)>& pressure,
+                           bool smoothed) {
   std::vector<double> values;
   for (const double mark : marks) values.push_back(pressure(mark));
   const auto best = static_cast<std::size_t>(std::ranges::max_element(values) - values.begin());
-  const std::pair<double, double> at_mark{marks[best], values[best]};
-  if (!smoothed || marks.size() < 2) return at_mark;
+  LargestPressure largest{marks[best], values[best], best + 1 < marks.size() ? marks[best + 1] : never};
+  if (!smoothed || marks.size() < 2) return largest;
   const double begin = marks[best > 0 ? best - 1 : 0], end = marks[std::min(best + 1, marks.size() - 1)];
   constexpr int digits = std::numeric_limits<double>::digits / 2;
   const auto below =
       boost::math::tools::brent_find_minima([&](double t) { return -pressure(t); }, begin, end, digits);
-  return -below.second > values[best] ? std::pair{below.first, -below.second} : at_mark;
+  if (-below.second > values[best]) {
+    largest.time = below.first;
+    largest.pressure = -below.second;
+  }
+  return largest;
 }
 
 /// Of the analytic shapes: the pressure over the base as a share of that at the peak.
@@ -176,54 +188,58 @@ double end_in_the_barrel(const Load& load) {
 
 }  // namespace
 
-PressureHistory::PressureHistory(const Load& load) : load_(load) {
-  if (load_.curve_time.size() >= 2) {
-    Interpolant curve(load_.curve_time, load_.curve_pressure);
-    const bool smoothed = load_.smoothing > 0.0;
+/// A load in a barrel without end. Of a measured curve, which may have a million points, it is built once.
+struct LoadInBarrel {
+  explicit LoadInBarrel(const Load& stated) : load(without_exit(stated)) {
+    load.duration.reset();
+    load.in_barrel.reset();
+    if (!load.curve_pressure.empty()) highest = std::ranges::max(load.curve_pressure);
+    if (load.curve_time.size() < 2) return;
+    Interpolant through_points(load.curve_time, load.curve_pressure);
+    const bool smoothed = load.smoothing > 0.0;
     if (smoothed)
-      curve_ = MovingAverage(std::move(curve), load_.smoothing);
+      curve = MovingAverage(std::move(through_points), load.smoothing);
     else
-      curve_ = std::move(curve);
-    if (load_.rescale_to_peak) {
-      const auto marks = marks_between(load_, load_.curve_time.front(), load_.curve_time.back(), exit_);
-      const double largest = largest_at(marks, curve_, smoothed).second;
-      if (largest > 0.0) scale_ = load_.peak / largest;
-    }
+      curve = std::move(through_points);
+    if (!load.rescale_to_peak) return;
+    const auto marks = marks_between(load, load.curve_time.front(), load.curve_time.back(), never);
+    const double largest_point = largest_at(marks, curve, smoothed).pressure;
+    if (largest_point > 0.0) scale = load.peak / largest_point;
   }
-  if (load_.muzzle_exit) {
-    exit_ = *load_.muzzle_exit;
-  } else if (load_.muzzle_travel && load_.mass_over_area > 0.0) {
-    const double goal = *load_.muzzle_travel * load_.mass_over_area;
-    const RigidMotion motion = drive(end_in_the_barrel(load_), goal);
-    if (motion.travel == goal) exit_ = motion.time;
+
+  /// Whether the curve is that of a load.
+  bool is_of(const Load& other) const {
+    return load.smoothing == other.smoothing && load.rescale_to_peak == other.rescale_to_peak &&
+           (!load.rescale_to_peak || load.peak == other.peak) && load.curve_time == other.curve_time &&
+           load.curve_pressure == other.curve_pressure;
   }
-  if (!std::isfinite(exit_)) return;
-  exit_pressure_ = in_the_barrel(exit_);
-  pressure_outside_ = load_.curve_time.empty() ? load_.base : 0.0;
-}
 
-double PressureHistory::at(double time) const {
-  if (!(time > exit_)) return in_the_barrel(time);
-  return pressure_outside_ +
-         (exit_pressure_ - pressure_outside_) * std::exp(-(time - exit_) / load_.exit_decay);
-}
+  double at(double time) const {
+    if (load.curve_time.empty()) return load.base + (load.peak - load.base) * share_of_peak(load, time);
+    if (!curve) return scale * load.curve_pressure.front();
+    const double first = load.curve_time.front(), last = load.curve_time.back();
+    // An interpolant's round-off at its ends is that of the average; without one the points are met exactly.
+    if (load.smoothing > 0.0) return scale * curve(std::clamp(time, first, last));
+    if (time <= first) return scale * load.curve_pressure.front();
+    if (time >= last) return scale * load.curve_pressure.back();
+    return scale * curve(time);
+  }
 
-double PressureHistory::in_the_barrel(double time) const {
-  if (load_.curve_time.empty()) return load_.base + (load_.peak - load_.base) * share_of_peak(load_, time);
-  if (!curve_) return scale_ * load_.curve_pressure.front();
-  const double first = load_.curve_time.front(), last = load_.curve_time.back();
-  // An interpolant's round-off at its ends is that of the average; without one the points are met exactly.
-  if (load_.smoothing > 0.0) return scale_ * curve_(std::clamp(time, first, last));
-  if (time <= first) return scale_ * load_.curve_pressure.front();
-  if (time >= last) return scale_ * load_.curve_pressure.back();
-  return scale_ * curve_(time);
-}
+  Load load;                            ///< without exit and duration
+  std::function<double(double)> curve;  ///< between the first and the last point; empty for an analytic shape
+  double scale = 1.0;
+  double highest = 0.0;  ///< Pa, of the points
+  // Of a load that is built before it is used; else empty.
+  std::vector<RigidMotion> driven;         ///< of 1 kg/m2, at every mark from 0 on
+  std::optional<LargestPressure> largest;  ///< over these
+};
 
-std::vector<double> PressureHistory::marks() const {
-  return marks_between(load_, 0.0, load_.duration.value_or(launch_end()), exit_);
-}
+namespace {
 
-RigidMotion PressureHistory::drive(double until, std::optional<double> goal) const {
+/// Moves a body of 1 kg/m2 on from mark to mark under a pressure, until its travel is `goal`.
+RigidMotion driven_on(RigidMotion motion, const std::vector<double>& marks, bool measured,
+                      const std::function<double(double)>& pressure, std::optional<double> goal,
+                      std::vector<RigidMotion>* passed = nullptr) {
   // Where an analytic shape has no derivative, or rises within a small share of the launch, is at the ends of
   // the parts, where this rule has most of its nodes: some 60 a part, and 1e-8 of the integral for
   // steepnesses from 0.3 to 100 and exponents from 0.1 to 1000.
@@ -239,20 +255,18 @@ RigidMotion PressureHistory::drive(double until, std::optional<double> goal) con
                  beside = half / std::numbers::sqrt3;
     return half * (push(middle - beside) + push(middle + beside));
   };
-  const std::vector<double> marks = marks_between(load_, 0.0, until, exit_);
-  RigidMotion motion;
   for (std::size_t i = 1; i < marks.size(); ++i) {
     const auto driven_to = [&, begin = marks[i - 1]](double end) -> RigidMotion {
-      const auto push = [&](double time) { return std::complex(1.0, end - time) * at(time); };
-      const std::complex<double> gained = load_.curve_time.empty()
-                                              ? shape_rule.integrate(push, begin, end, tolerance)
-                                              : curve_rule(push, begin, end);
+      const auto push = [&](double time) { return std::complex(1.0, end - time) * pressure(time); };
+      const std::complex<double> gained =
+          measured ? curve_rule(push, begin, end) : shape_rule.integrate(push, begin, end, tolerance);
       return {motion.velocity + gained.real(),
               motion.travel + motion.velocity * (end - begin) + gained.imag(), end};
     };
     const RigidMotion next = driven_to(marks[i]);
     if (!goal || !(next.travel >= *goal && std::isfinite(next.travel))) {
       motion = next;
+      if (passed != nullptr) passed->push_back(motion);
       continue;
     }
     constexpr int digits = 40;  // binary
@@ -268,25 +282,84 @@ RigidMotion PressureHistory::drive(double until, std::optional<double> goal) con
   return motion;
 }
 
+std::shared_ptr<const LoadInBarrel> barrel_of(const Load& load) {
+  if (load.in_barrel && load.in_barrel->is_of(load)) return load.in_barrel;
+  return std::make_shared<const LoadInBarrel>(load);
+}
+
+}  // namespace
+
+void build_curve(Load& load) {
+  if (load.curve_time.empty() || (load.in_barrel && load.in_barrel->is_of(load))) return;
+  const auto built = std::make_shared<LoadInBarrel>(load);
+  const auto pressure = [&](double time) { return built->at(time); };
+  const std::vector<double> marks = marks_between(load, 0.0, load.curve_time.back(), never);
+  built->largest = largest_at(marks, pressure, load.smoothing > 0.0);
+  built->driven.reserve(marks.size());
+  built->driven.emplace_back();
+  driven_on({}, marks, true, pressure, {}, &built->driven);
+  load.in_barrel = built;
+}
+
+PressureHistory::PressureHistory(const Load& load)
+    : barrel_(barrel_of(load)), duration_(load.duration), exit_decay_(load.exit_decay) {
+  if (load.muzzle_exit) {
+    exit_ = *load.muzzle_exit;
+  } else if (load.muzzle_travel && load.mass_over_area > 0.0) {
+    const double goal = *load.muzzle_travel * load.mass_over_area;
+    const RigidMotion motion = drive(end_in_the_barrel(barrel_->load), goal);
+    if (motion.travel == goal) exit_ = motion.time;
+  }
+  if (!std::isfinite(exit_)) return;
+  exit_pressure_ = barrel_->at(exit_);
+  pressure_outside_ = is_measured() ? 0.0 : barrel_->load.base;
+}
+
+bool PressureHistory::is_measured() const { return !barrel_->load.curve_time.empty(); }
+
+double PressureHistory::at(double time) const {
+  if (!(time > exit_)) return barrel_->at(time);
+  return pressure_outside_ + (exit_pressure_ - pressure_outside_) * std::exp(-(time - exit_) / exit_decay_);
+}
+
+std::vector<double> PressureHistory::marks() const {
+  return marks_between(barrel_->load, 0.0, duration_.value_or(launch_end()), exit_);
+}
+
+RigidMotion PressureHistory::drive(double until, std::optional<double> goal) const {
+  const std::vector<RigidMotion>& known = barrel_->driven;
+  const auto next = std::ranges::partition_point(known, [&](const RigidMotion& there) {
+    return there.time < std::min(until, exit_) && !(goal && there.travel >= *goal);
+  });
+  const RigidMotion start = next == known.begin() ? RigidMotion{} : *std::prev(next);
+  if (goal && next != known.end() && next->travel >= *goal) until = std::min(until, next->time);
+  return driven_on(
+      start, marks_between(barrel_->load, start.time, until, exit_), is_measured(),
+      [this](double time) { return at(time); }, goal);
+}
+
 std::pair<double, double> PressureHistory::largest() const {
-  if (load_.curve_time.empty()) {
-    const double time = std::min({load_.peak_time, load_.duration.value_or(launch_end()), exit_});
+  if (!is_measured()) {
+    const double time = std::min({barrel_->load.peak_time, duration_.value_or(launch_end()), exit_});
     return {time, at(time)};
   }
-  return largest_at(
-      marks(), [this](double t) { return at(t); }, load_.smoothing > 0.0);
+  const std::optional<LargestPressure>& known = barrel_->largest;
+  const double end = std::min(duration_.value_or(launch_end()), exit_);
+  if (known && known->next_mark <= end && !(at(end) > known->pressure)) return {known->time, known->pressure};
+  const LargestPressure own = largest_at(
+      marks(), [this](double t) { return at(t); }, barrel_->load.smoothing > 0.0);
+  return {own.time, own.pressure};
 }
 
 double PressureHistory::stated_peak() const {
-  if (load_.curve_time.empty()) return load_.peak;
-  return scale_ * *std::ranges::max_element(load_.curve_pressure);
+  return is_measured() ? barrel_->scale * barrel_->highest : barrel_->load.peak;
 }
 
 double PressureHistory::launch_end() const {
-  if (!exit()) return end_in_the_barrel(load_);
+  if (!exit()) return end_in_the_barrel(barrel_->load);
   const double height = stated_peak() - pressure_outside_;
   const double share = height > 0.0 ? (exit_pressure_ - pressure_outside_) / height : 0.0;
-  return exit_ + load_.exit_decay * std::log(std::max(1.0, share / share_when_over));
+  return exit_ + exit_decay_ * std::log(std::max(1.0, share / share_when_over));
 }
 
 std::optional<double> exit_time(const Load& load) {
@@ -332,19 +405,6 @@ Load without_exit(Load load) {
   load.muzzle_exit.reset();
   load.muzzle_travel.reset();
   return load;
-}
-
-std::optional<Load> longer_launch(Load load) {
-  constexpr double most_times_as_long = 10.0;
-  const double end = end_time(load);
-  if (is_cut_short(load)) {
-    load.duration.reset();
-  } else if (exit_time(load) && !load.duration) {
-    load = without_exit(std::move(load));
-  } else {
-    return std::nullopt;
-  }
-  return end_time(load) <= most_times_as_long * end ? std::optional(std::move(load)) : std::nullopt;
 }
 
 std::string exit_text(const Scene& scene) {

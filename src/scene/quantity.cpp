@@ -128,18 +128,6 @@ std::optional<Unit> find_unit(Dimension dimension, std::string_view name) {
   return std::nullopt;
 }
 
-/// "which is a time", for a unit of another dimension; else "whose unit is unknown".
-std::string kind_of_unit(std::string_view name, Dimension wanted) {
-  if (wanted == Dimension::temperature_difference && find_unit(Dimension::temperature, name))
-    return "which is a temperature; the zero of its scale means nothing to a difference";
-  for (std::size_t i = 0; i < dimension_count; ++i)
-    if (const auto dimension = static_cast<Dimension>(i); find_unit(dimension, name))
-      return fmt::format("which is a {}", info_of(dimension).name);
-  if (name.starts_with("to "))
-    return "which is a range, where values are wanted (a study varies a value by a range in [[vary]])";
-  return fmt::format("with the unknown unit \"{}\"", name);
-}
-
 InputError fault(std::string found, Dimension dimension, std::string suggestion = {}) {
   const DimensionInfo& info = info_of(dimension);
   std::string allowed = fmt::format("a {}, such as {}", info.name, info.example);
@@ -148,25 +136,6 @@ InputError fault(std::string found, Dimension dimension, std::string suggestion 
 }
 
 bool is_digit(char c) { return c >= '0' && c <= '9'; }
-
-/// A text with something else for each comma between two digits, which may be meant for decimals or
-/// thousands.
-std::string with_commas_as(std::string_view replacement, std::string_view text) {
-  std::string result;
-  for (std::size_t i = 0; i < text.size(); ++i) {
-    const bool is_inner = i > 0 && i + 1 < text.size();
-    if (is_inner && text[i] == ',' && is_digit(text[i - 1]) && is_digit(text[i + 1]))
-      result += replacement;
-    else
-      result += text[i];
-  }
-  return result;
-}
-
-InputError comma_fault(std::string_view whole, Dimension dimension, std::string suggestion) {
-  return fault(fmt::format("\"{}\", where a comma may be a decimal point or divide thousands", whole),
-               dimension, std::move(suggestion));
-}
 
 /// A number and what follows it, both as written.
 struct Token {
@@ -185,13 +154,7 @@ Token split(std::string_view text, std::string_view whole, Dimension dimension) 
     throw fault(fmt::format("\"{}\", which is not a finite number", whole), dimension);
   const auto length = static_cast<std::size_t>(end - text.data());
   const std::string_view number = text.substr(0, length), rest = text.substr(length);
-  if (rest.size() < 2 || rest[0] != ',' || !is_digit(rest[1]))
-    return Token{number, without_blanks_around(rest)};
-  const std::size_t decimals = std::min(rest.find_first_not_of("0123456789", 1), rest.size()) - 1;
-  const bool has_point =
-      number.find('.') != std::string_view::npos || rest.substr(1 + decimals).starts_with('.');
-  const std::string pointed = has_point || decimals == 3 ? "" : with_commas_as(".", whole);
-  throw comma_fault(whole, dimension, in_quotes(pointed));
+  return {number, without_blanks_around(rest)};
 }
 
 /// The double nearest to `number` times ten to the power.
@@ -214,14 +177,13 @@ double scaled(std::string_view number, int power) {
 double convert(const Token& token, std::string_view whole, Dimension dimension) {
   const DimensionInfo& info = info_of(dimension);
   if (info.units.empty()) {
-    if (!token.unit.empty())
-      throw fault(fmt::format("\"{}\", {}", whole, kind_of_unit(token.unit, dimension)), dimension);
+    if (!token.unit.empty()) throw fault(fmt::format("\"{}\", a number with a unit", whole), dimension);
     return scaled(token.number, 0);
   }
   if (token.unit.empty()) throw fault(fmt::format("\"{}\", without a unit", whole), dimension);
   // No unit is suggested: another one, however near in letters, makes another quantity of the number.
   const std::optional<Unit> unit = find_unit(dimension, token.unit);
-  if (!unit) throw fault(fmt::format("\"{}\", {}", whole, kind_of_unit(token.unit, dimension)), dimension);
+  if (!unit) throw fault(fmt::format("\"{}\", with the unknown unit \"{}\"", whole, token.unit), dimension);
   double value = 0.0;
   if (unit->is_decimal()) {
     value = scaled(token.number, unit->power);
@@ -297,11 +259,10 @@ Expected<std::vector<double>> parse_range(std::string_view text, Dimension dimen
 }
 
 Expected<std::vector<double>> parse_list(std::string_view text, Dimension dimension) {
-  if (const std::string list = with_commas_as(", ", text); list != text) {
-    const std::string pointed = with_commas_as(".", text);
-    const bool may_be_points = parse_list(pointed, dimension).has_value();
-    return comma_fault(text, dimension, may_be_points ? quoted_list({pointed, list}) : quoted_list({list}));
-  }
+  for (std::size_t i = 1; i + 1 < text.size(); ++i)
+    if (text[i] == ',' && is_digit(text[i - 1]) && is_digit(text[i + 1]))
+      return fault(fmt::format("\"{}\", where a comma without a blank may be a decimal point", text),
+                   dimension);
   return caught([&] { return convert_all(parts_of_list(text), text, dimension); });
 }
 

@@ -8,8 +8,7 @@
 namespace launchsafe::scene {
 namespace {
 
-const std::vector<std::string> read_apart{"body",     "observation_point", "accept", "interface",
-                                          "material", "contact",           "source", "material_file"};
+const std::vector<std::string> read_apart{"body", "observation_point", "accept", "interface", "material"};
 
 /// Reads [[name]] tables into `owners`; the places become "name.<name of the owner>.<key>".
 template <class Owner>
@@ -50,10 +49,13 @@ void rebuild(SceneFile& file, bool has_curve, bool is_valid = false) {
   if (has_curve && !file.scene.load.curve_file.empty()) {
     file.scene.load.curve_time = std::move(fresh.load.curve_time);
     file.scene.load.curve_pressure = std::move(fresh.load.curve_pressure);
+    file.scene.load.in_barrel = std::move(fresh.load.in_barrel);
   } else {
     read_curve_file(file);
   }
   settle_load(file.scene);
+  if (!is_valid) check_curve(file);
+  build_curve(file.scene.load);
   if (!file.given.contains("numerics.selective_inertia"))
     file.scene.numerics.selective_inertia = usual_selective_inertia(file.scene);
   if (!is_valid) validate(file);
@@ -81,7 +83,7 @@ std::vector<Key<Interface>> changing_interface_keys() {
 }
 
 /// Keys of the scene's bodies, "body.<name>.x", ".r" and ".material", of the interfaces of all bodies that
-/// touch the charge, "interface.<name>.<key>", and of the materials that bodies name.
+/// touch the charge, "interface.<name>.<key>".
 std::vector<Key<SceneFile>> keys_of_tables(const SceneFile& file) {
   const Scene& scene = file.scene;
   std::vector<Key<SceneFile>> all;
@@ -100,7 +102,7 @@ std::vector<Key<SceneFile>> keys_of_tables(const SceneFile& file) {
                                  "interface." + body + ".",
                                  [body](auto& owner) -> auto& { return interface_of(owner.scene, body); },
                                  changing_interface_keys())});
-  return keys::joined({all, keys_of_used_materials(file)});
+  return all;
 }
 
 /// The keys of the scene itself, on the scene of a file.
@@ -114,43 +116,6 @@ Key<SceneFile> key_named(const SceneFile& file, const std::string& name, const P
   const std::vector<Key<SceneFile>> of_tables = keys_of_tables(file);
   if (const Key<SceneFile>* key = find_key(of_tables, name)) return *key;
   throw unknown_key(place, name, names_of(keys::joined({keys_of_scene(), of_tables})));
-}
-
-/// What the sources of a scene may speak of.
-std::vector<std::string> names_of_values(const SceneFile& file) {
-  std::vector<std::string> names = names_of(scene_keys());
-  for (const Body& body : file.scene.bodies) {
-    for (const Key<Body>& key : body_keys()) names.push_back(fmt::format("body.{}.{}", body.name, key.name));
-    for (const Key<Interface>& key : interface_keys())
-      names.push_back(fmt::format("interface.{}.{}", body.name, key.name));
-  }
-  for (const auto* list : {&file.materials, &shipped_materials()})
-    for (const NamedMaterial& material : *list)
-      for (const auto& each : material.values)
-        names.push_back(
-            fmt::format("material.{}.{}", material.name, key_in_material(material.law, each.first)));
-  return names;
-}
-
-/// The materials and contacts of a scene file, and of the file of materials that it names.
-void read_own_materials(const toml::table& table, SceneFile& file, std::vector<NamedContact>& contacts) {
-  std::vector<NamedMaterial> known = shipped_materials();
-  const auto add = [&](const toml::table& from, const std::string& name) {
-    const std::vector<NamedMaterial> materials = read_materials(from, name, known);
-    for (std::vector<NamedMaterial>* list : {&known, &file.materials})
-      list->insert(list->end(), materials.begin(), materials.end());
-    const std::vector<NamedContact> more = read_contacts(from, name, contacts);
-    contacts.insert(contacts.end(), more.begin(), more.end());
-  };
-  if (const toml::node* node = table.get("material_file")) {
-    const auto named = std::get<std::string>(read_value(*node, material_file_key(), file.file).or_throw());
-    const auto path = named_file(file.folder, named, place_of(*node, file.file), "material_file",
-                                 "a TOML file with tables [material.NAME] and [contact.NAME]");
-    const toml::table content = parse_toml(read_text_file(path).or_throw(), path.string()).or_throw();
-    check_material_tables(content, path.string());
-    add(content, path.string());
-  }
-  add(table, file.file);
 }
 
 std::string text_as_toml(const std::string& text) { return exact_toml({.kind = KeyKind::text}, text); }
@@ -194,7 +159,7 @@ std::string inline_tables(std::string_view name, const std::vector<Key<Owner>>& 
   return text + "]\n";
 }
 
-/// Materials under other names than their law's. Where their numbers come from is among the scene's sources.
+/// Materials under other names than their law's.
 std::string own_materials(const Scene& scene) {
   std::string text;
   for (const Material& material : scene.materials) {
@@ -232,7 +197,6 @@ Expected<SceneFile> parse_scene(std::string_view text, const std::filesystem::pa
     Scene& scene = file.scene;
     // Faults of the keys first, then of the tables; within each by line.
     ReadValues read = read_described(table, descriptions_of(scene_keys()), read_apart, file.file).or_throw();
-    file.notes = std::move(read.notes);
     for (auto& [index, value] : read.values) {
       const std::string& name = scene_keys()[index].name;
       file.given[name] = {read.places[name], std::move(value)};
@@ -240,13 +204,9 @@ Expected<SceneFile> parse_scene(std::string_view text, const std::filesystem::pa
     read_named(table, "body", body_keys(), file.file, scene.bodies, file.places);
     read_named(table, "observation_point", observation_point_keys(), file.file,
                scene.output.observation_points, file.places);
-    std::vector<NamedContact> contacts = shipped_contacts();
-    read_own_materials(table, file, contacts);
+    file.materials = read_materials(table, file.file);
     for (const Body& body : scene.bodies) file.body_materials.push_back(body.material);
-    std::vector<Source> of_contacts;
-    read_interfaces(table, file.file, contacts, scene, of_contacts, file.places);
-    file.sources = read_sources(table, names_of_values(file), file.file);
-    file.sources.insert(file.sources.end(), of_contacts.begin(), of_contacts.end());
+    read_interfaces(table, file.file, scene, file.places);
     rebuild(file, false);
     check_expected_velocity(file);
     if (table.contains("accept"))
@@ -256,7 +216,7 @@ Expected<SceneFile> parse_scene(std::string_view text, const std::filesystem::pa
 }
 
 Expected<SceneFile> read_scene(const std::filesystem::path& file) {
-  const auto text = read_text_file(file, largest_input, InputContent::scene);
+  const auto text = read_text_file(file);
   return text ? parse_scene(*text, file) : text.error();
 }
 
@@ -275,12 +235,10 @@ Expected<SceneFile> with_keys(const SceneFile& file, const std::vector<KeyChange
     for (const auto& [name, value, place] : changes) {
       const Key<SceneFile> key = key_named(changed, name, place);
       if (find_key(scene_keys(), name) == nullptr) {
-        if (key.get(changed) != value) forget_source(changed.sources, name);
         key.set(changed, value);
         changed.places[name] = place;
         continue;
       }
-      if (key.get(file) != value) forget_source(changed.sources, name);
       changed.given[name] = {place, value};
       other_curve = other_curve || name == "load.curve";
     }
@@ -289,23 +247,12 @@ Expected<SceneFile> with_keys(const SceneFile& file, const std::vector<KeyChange
   });
 }
 
-Expected<SceneFile> with_written_key(const SceneFile& file, const std::string& name, std::string_view written,
-                                     const Place& place) {
-  return caught([&] {
-    const Value value = parse_value(written, key_named(file, name, place), place).or_throw();
-    return with_keys(file, {{name, value, place}}).or_throw();
-  });
-}
-
 std::vector<ListedKey> list_keys(const SceneFile& file) {
   std::vector<ListedKey> listed;
   for (const Key<Scene>& key : scene_keys()) {
     const Given* given = find_in(file.given, key.name);
     if (!given && key.is_written && !key.is_written(file.scene)) continue;
-    const Source* source = source_of(file.scene.sources, key.name);
-    const Standing standing = source ? source->standing : given ? Standing::input : key.standing;
-    listed.push_back({key.name, format_value(key, key.get(file.scene)), standing, key.sentence,
-                      given ? given->place : Place{}, source ? source->citation : std::string{}});
+    listed.push_back({key.name, format_value(key, key.get(file.scene)), key.sentence});
   }
   return listed;
 }
@@ -316,7 +263,7 @@ std::string to_toml(const Scene& scene) {
       inline_tables("body", body_keys(), scene.bodies) +
       inline_tables("observation_point", observation_point_keys(), scene.output.observation_points);
   if (!scene.accepted.empty()) text += inline_tables("accept", acceptance_keys(), scene.accepted);
-  return scene.sources.empty() ? text : text + inline_tables("source", source_keys(), scene.sources);
+  return text;
 }
 
 }  // namespace launchsafe::scene

@@ -10,11 +10,9 @@
 namespace launchsafe::scene {
 namespace {
 
-/// Area (m2) between two radii: a full ring, or a strip of 1 m depth.
-double cross_section(double r_begin, double r_end, Symmetry symmetry) {
-  const double width = r_end - r_begin;
-  if (symmetry == Symmetry::plane_strain) return width;
-  return std::numbers::pi * width * (r_end + r_begin);
+/// Area (m2) between two radii.
+double cross_section(double r_begin, double r_end) {
+  return std::numbers::pi * (r_end - r_begin) * (r_end + r_begin);
 }
 
 /// Writes the band where the pressure acts on more than the rearmost faces, or only what is stated says so.
@@ -41,7 +39,6 @@ std::vector<Material> usual_materials() {
 
 void clear_remarks(Scene& scene) {
   scene.title.clear();
-  scene.sources.clear();
   for (Material& material : scene.materials) material.title.clear();
 }
 
@@ -129,7 +126,7 @@ double mass_of(const Scene& scene, std::string_view material) {
   double volume = 0.0;
   for (const Body& body : scene.bodies)
     if (body.material == material)
-      volume += cross_section(body.r_begin, body.r_end, scene.symmetry) * (body.x_end - body.x_begin);
+      volume += cross_section(body.r_begin, body.r_end) * (body.x_end - body.x_begin);
   const Material* of = find_material(scene, material);
   return of ? volume * initial_density(of->law) : 0.0;
 }
@@ -143,7 +140,7 @@ double total_mass(const Scene& scene) {
 double base_area(const Scene& scene) {
   double area = 0.0;
   for (const ChamberFace& face : chamber_of(scene).faces)
-    if (face.across_x()) area -= face.direction() * cross_section(face.begin, face.end, scene.symmetry);
+    if (face.across_x()) area -= face.direction() * cross_section(face.begin, face.end);
   return area;
 }
 

@@ -30,12 +30,11 @@ std::vector<std::string> names_of(const std::vector<Named>& all) {
 
 /// Without blanks, tabs and line ends at its ends.
 std::string_view without_blanks_around(std::string_view text);
+/// With small letters (ASCII).
+std::string lower_case(std::string_view text);
 
 /// "a, b" as its parts between separators, without blanks around them; at least one, which may be empty.
 std::vector<std::string_view> parts_of_list(std::string_view text, char separator = ',');
-
-/// With small letters (ASCII).
-std::string lower_case(std::string_view text);
 
 /// Throws the fault of the first byte of a text that is no UTF-8, or a NUL, with its line.
 void check_encoding(std::string_view text, const std::string& file);
@@ -53,26 +52,19 @@ const std::vector<BuiltInText>& built_in_materials();
 /// The keys of [load], under their names in that table.
 std::vector<Key<Load>> load_keys();
 
-/// The material of a name that a scene file knows: its own, or a shipped one.
-const NamedMaterial* find_named_material(const SceneFile& file, const std::string& name);
-
 /// Makes the scene of materials that the bodies name. The material that bodies of a law are of becomes the
 /// scene's material of that law: its numbers are given values of the law's keys, and the scene's own stand
 /// above them. Where bodies of one law are of several materials, that one is the law's that is called so,
 /// else the first body's; the others keep their names and numbers. Of explosives there may be one. Throws: a
 /// name that no material has, a second explosive, keys of a law of which no body says which material they
-/// mean, and keys of [kinetics] that differ from the charge's material.
+/// mean, keys of [kinetics] in the scene's own file that differ from the charge's material, and a file of a
+/// material that cannot be read.
 void use_materials(SceneFile& file, Scene& scene);
 
-/// "material.NAME.KEY" of the materials that bodies name, on their numbers in the file.
-std::vector<Key<SceneFile>> keys_of_used_materials(const SceneFile& file);
-
-/// Reads all [interface.NAME] of a file, in the order of their names, the sources of values that they have of
-/// a contact, by "interface.<name>.<key>", and the places of these and of "interface.<name>". Throws the
-/// fault of a table that is none, a key that does not exist, a value out of range, a contact that is not
-/// among `contacts`.
-void read_interfaces(const toml::table& root, const std::string& file,
-                     const std::vector<NamedContact>& contacts, Scene& scene, std::vector<Source>& sources,
+/// Reads all [interface.NAME] of a file, in the order of their names, and the places of these,
+/// "interface.<name>", and of "interface.<name>.<key>". Throws the fault of a table that is none, a key that
+/// does not exist, a value out of range.
+void read_interfaces(const toml::table& root, const std::string& file, Scene& scene,
                      std::map<std::string, Place>& places);
 
 /// Whether two bodies share more than an edge of their surfaces.
@@ -108,7 +100,9 @@ void check_support(const SceneFile& file);
 /// A body that does not touch the charge, keys of an interface that are missing or would do nothing, sliding
 /// in a form that has none.
 void check_interfaces(const SceneFile& file);
-/// A measured curve, what stands beside it, and the end of the load.
+/// Points of a measured curve of which no curve can be built.
+void check_curve(const SceneFile& file);
+/// What stands beside a measured curve, and the end of the load.
 void check_load(const SceneFile& file);
 
 }  // namespace launchsafe::scene

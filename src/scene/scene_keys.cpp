@@ -46,16 +46,6 @@ Keys general_keys() {
       text_key("title", Standing::assumed, "What this scene is, for reports.", "155 mm shell, Composition B",
                &Scene::title) |
           always_plausible("it is for people", remark),
-      word_key("symmetry", Standing::paper,
-               "Full shell of revolution, or a slice of unit depth (half model).",
-               {{"axisymmetric", Symmetry::axisymmetric}, {"plane-strain", Symmetry::plane_strain}},
-               &Scene::symmetry) |
-          always_plausible("both are shapes that are asked about"),
-      word_key("frame", Standing::assumed,
-               "Grid that accelerates with the projectile, or a grid at rest that it flies through.",
-               {{"co-moving", Frame::co_moving}, {"lab", Frame::lab}}, &Scene::frame) |
-          always_plausible("a run at rest that errs gets a validity warning by the distance that it flew",
-                           setting_exact_at("co-moving")),
       word_key("barrel", Standing::assumed,
                "Frictionless rigid barrel around the outer surface, or a free outer surface.",
                {{"rigid", Barrel::rigid}, {"none", Barrel::none}}, &Scene::barrel) |
@@ -82,30 +72,11 @@ Keys general_keys() {
   };
 }
 
-Key<Combustion> flame_kinetics_key() {
-  Key<Combustion> key = text_key(
-      "kinetics", Standing::literature,
-      "What the flame lives on after ignition: a decomposition whose numbers belong together, of RDX or of "
-      "Composition B, or effective, the charge's own. These alone decide ignition, and what is released "
-      "stays kinetics.heat_of_reaction.",
-      "", &Combustion::kinetics);
-  key.kind = KeyKind::word;
-  key.words = names_of(shipped_decompositions());
-  key.words.emplace_back(effective_kinetics);
-  return key;
-}
-
 std::vector<Key<Combustion>> combustion_keys() {
   return {
-      flame_kinetics_key() | always_plausible("it neither decides nor confirms ignition"),
-      word_key("release", Standing::paper,
-               "Heat of burning explosive: as much as brings it to T2, or all of its heat of reaction.",
-               {{"to-burnt-temperature", HeatRelease::to_burnt_temperature}, {"full", HeatRelease::full}},
-               &Combustion::release) |
-          always_plausible("the published model stops at T2, and explosives release all of it"),
       number_key("duration", Dimension::time, above_to(0, 1), Standing::assumed,
                  "Time after the first ignition at which the run ends.", &Combustion::duration) |
-          plausibly(between(1e-5, 5e-3), "a skin of 0.1 mm burns through in 3 ms"),
+          plausibly(between(1e-5, 5e-3), "a skin turns to gas at once, which expands for a millisecond"),
       number_key("stop_pressure", Dimension::pressure, above_to(0, 1e11), Standing::assumed,
                  "Pressure at the charge's bottom at which the run ends before.",
                  &Combustion::stop_pressure) |
@@ -116,8 +87,8 @@ std::vector<Key<Combustion>> combustion_keys() {
 /// What these stand for shrinks with the cells: the particles, which are a share of one, the time step, a
 /// share of the time that sound takes through one, and the stiffness against hourglassing, which acts on what
 /// smooth fields lose as the square of the cell. Both formulations have one limit. Cells far away stay as
-/// large as they may where the smallest are refined; where they do not grow, the largest one and the refined
-/// lines say nothing. By the time step T max moves by less than 0.1 K (reports/accuracy).
+/// large as they may where the smallest are refined; where they do not grow, the largest one says nothing. By
+/// the time step T max moves by less than 0.1 K (reports/accuracy).
 std::vector<Key<Numerics>> numerics_keys() {
   return {
       word_key("formulation", Standing::assumed,
@@ -128,18 +99,18 @@ std::vector<Key<Numerics>> numerics_keys() {
                &Numerics::formulation) |
           always_plausible("constants are calibrated for one of them", vanishing_setting),
       number_key("cell_size", Dimension::length, between(1e-5, 1), Standing::assumed,
-                 "Largest cell length at the refined lines, and everywhere on an even grid; the "
+                 "Largest cell length at the charge's bottom and sides, and everywhere on an even grid; the "
                  "grid is fitted to the bodies with cells no longer than this.",
                  &Numerics::cell_size) |
           plausibly(between(1e-4, 1e-2), "shells are some cells thick, and cells hold many grains",
                     vanishing_setting),
       number_key("growth_x", Dimension::number, between(1, 2), Standing::assumed,
-                 "Ratio of neighbouring cells along x away from the refined lines; 1 is an even grid.",
+                 "Ratio of neighbouring cells along x away from the charge's bottom; 1 is an even grid.",
                  &Numerics::growth_x) |
           plausibly(between(1, 1.5), "cells that grow faster were never compared with a reference",
                     setting_exact_at(1.0)),
       number_key("growth_r", Dimension::number, between(1, 2), Standing::assumed,
-                 "Ratio of neighbouring cells along r away from the refined lines; 1 is an even grid.",
+                 "Ratio of neighbouring cells along r away from the charge's sides; 1 is an even grid.",
                  &Numerics::growth_r) |
           plausibly(between(1, 1.5), "cells that grow faster were never compared with a reference",
                     setting_exact_at(1.0)),
@@ -147,13 +118,6 @@ std::vector<Key<Numerics>> numerics_keys() {
                  "Length up to which cells grow; along r no further than station.width.",
                  &Numerics::largest_cell) |
           plausibly(between(1e-4, 2e-2), "shells are some cells thick", vanishing_setting),
-      list_key("refined_x", Dimension::length, between(-10, 10), Standing::assumed,
-               "Places along x where cells are smallest; empty for the charge's bottom.",
-               &Numerics::refined_x) |
-          may_be_empty() | always_plausible("they only say where cells are small", vanishing_setting),
-      list_key("refined_r", Dimension::length, between(0, 10), Standing::assumed,
-               "Radii where cells are smallest; empty for the charge's edges.", &Numerics::refined_r) |
-          may_be_empty() | always_plausible("they only say where cells are small", vanishing_setting),
       number_key("hourglass_stiffness", Dimension::number, between(0, 10), Standing::assumed,
                  "Stiffness against hourglassing with one particle a cell, as a share of the shear "
                  "stiffness, in a charge of a fifth of it.",
@@ -183,7 +147,7 @@ std::vector<Key<Numerics>> numerics_keys() {
                     setting_exact_at(1.0)) |
           usually(
               "4, or 1 where that was not measured: two-way coupling, measured curves, rises below 0.5 ms, "
-              "other scaled inertia, no charge, the lab frame, updated-Lagrangian"),
+              "other scaled inertia, no charge, updated-Lagrangian"),
       number_key("damping_time", Dimension::time, between(0, 1), Standing::assumed,
                  "Decay time of the relative velocity; \"0 ms\" for no damping.", &Numerics::damping_time) |
           zero_or_plausibly(between(1e-3, 1), "a faster one takes out motion that the load makes",
@@ -229,15 +193,6 @@ std::vector<Key<Physics>> physics_keys() {
                &Physics::bulk_reaction) |
           always_plausible("only \"off\" where the plan has it in gives a validity warning",
                            judged_elsewhere),
-      number_key("conduction_bound", Dimension::number, at_least(0), Standing::assumed,
-                 "Diffusion length over cell size below which conduction is left out.",
-                 &Physics::conduction_bound) |
-          plausibly(between(0, 0.5), "heat that reaches the next cell is not to be left out",
-                    judged_elsewhere),
-      number_key("reaction_bound", Dimension::temperature_difference, at_least(0), Standing::assumed,
-                 "Self-heating over the run below which the bulk reaction is left out.",
-                 &Physics::reaction_bound) |
-          plausibly(between(0, 1), "self-heating by a kelvin is not to be left out", judged_elsewhere),
   };
 }
 
@@ -266,7 +221,7 @@ void document(std::vector<DocumentedKey>& documented, const std::vector<Key<Owne
 
 const std::vector<std::string>& event_words() {
   static const std::vector<std::string> words{"first-crack-growth", "first-yield", "peak-pressure",
-                                              "largest-slip",       "ignition",    "burnt"};
+                                              "largest-slip", "ignition"};
   return words;
 }
 
@@ -321,26 +276,14 @@ const std::vector<Key<ObservationPoint>>& observation_point_keys() {
   return keys;
 }
 
-bool has_key(const std::vector<DocumentedKey>& keys, const std::string& name) {
-  return std::ranges::any_of(
-      keys, [&](const DocumentedKey& each) { return (each.description.name + ".").starts_with(name + "."); });
-}
-
 std::vector<DocumentedKey> describe_keys() {
   std::vector<DocumentedKey> documented;
   document(documented, scene_keys(), "");
   document(documented, body_keys(), "body.");
   document(documented, interface_keys(), "interface.NAME.");
-  documented.push_back({contact_of_interface_key(), {}});
-  documented.back().description.name = "interface.NAME.contact";
   document(documented, observation_point_keys(), "observation_point.");
   document(documented, acceptance_keys(), "accept.");
-  document(documented, source_keys(), "source.");
-  documented.push_back({material_file_key(), {}});
   document(documented, material_keys(), "material.NAME.");
-  document(documented, source_keys(), "material.NAME.source.");
-  document(documented, contact_keys(), "contact.NAME.");
-  document(documented, source_keys(), "contact.NAME.source.");
   return documented;
 }
 

@@ -10,17 +10,6 @@ std::vector<Key<Surface>> gap_keys() {
                "Gaps between charge and base; all are judged on one run of the mechanics.", &Surface::gaps) |
           always_plausible("each gap is judged for itself, and a larger one is hotter",
                            Role{ActsOn::surface, Part::free}),
-      word_key("pressure", Standing::assumed,
-               "What compresses the air: the charge's bottom stress or the chamber.",
-               {{"charge-bottom", AirPressure::charge_bottom}, {"chamber", AirPressure::chamber}},
-               &Surface::air_pressure) |
-          always_plausible("both are readings of the published model", of_skin_model),
-      word_key("air", Standing::paper, "Air that stays on its adiabat, whatever heat it gives.",
-               {{"reservoir", AirModel::reservoir}}, &Surface::air_model) |
-          always_plausible("there is no other", of_skin_model),
-      word_key("exchange", Standing::derived, "Heat exchange as a rate.", {{"rate", Exchange::rate}},
-               &Surface::exchange) |
-          always_plausible("there is no other", of_skin_model),
       number_key("skin_thickness", Dimension::length, above_to(0, 0.01), Standing::paper,
                  "Thickness of the charge's skin that the air heats.", &Surface::skin_thickness) |
           plausibly(between(3e-5, 1.5e-4),
@@ -32,10 +21,6 @@ std::vector<Key<Surface>> gap_keys() {
   };
 }
 
-void take_density_from_gas_law(materials::AirParameters& air) {
-  air.density = materials::air_density(air.initial_temperature, air.initial_pressure);
-}
-
 std::vector<Key<materials::AirParameters>> air_keys() {
   using materials::AirParameters;
   return {
@@ -45,23 +30,14 @@ std::vector<Key<materials::AirParameters>> air_keys() {
       number_key("heat_ratio", Dimension::number, above_to(1, 1.67), Standing::paper,
                  "Adiabatic exponent of the air.", &AirParameters::heat_ratio) |
           plausibly(between(1.3, 1.42), "air has 1.40, at 2000 K 1.30"),
-      number_key("temperature", Dimension::temperature, between(200, 500), Standing::paper,
-                 "Temperature of the air before launch; follows initial_temperature unless given.",
-                 &AirParameters::initial_temperature) |
-          then(take_density_from_gas_law) |
-          plausibly(between(219, 345), "shells are stored and fired from -54 to 71 degC",
-                    Role{ActsOn::surface, Part::range}),
       number_key("pressure", Dimension::pressure, above_to(0, 10e6), Standing::assumed,
-                 "Pressure of the air before launch.", &AirParameters::initial_pressure) |
-          then(take_density_from_gas_law) |
+                 "Pressure of the air before launch; its density follows by the gas law.",
+                 &AirParameters::initial_pressure) |
+          then([](AirParameters& air) {
+            air.density = materials::air_density(air.initial_temperature, air.initial_pressure);
+          }) |
           plausibly(between(1e5, 1.2e5), "shells are closed near the ground, and thinner air heats less",
                     Role{ActsOn::trace, Part::range}),
-      // After what it follows from, so that one that is given stays.
-      number_key("density", Dimension::density, between(0.01, 100), Standing::literature,
-                 "Density of the air before launch; follows from its temperature and pressure by the "
-                 "gas law unless given.",
-                 &AirParameters::density) |
-          plausibly(between(0.6, 1.7), "air has 1.2 kg/m3 at the ground", Role{ActsOn::surface, Part::range}),
   };
 }
 
@@ -74,10 +50,8 @@ std::vector<Key<Surface>> friction_keys() {
   }
   return {
       word_key("closure", Standing::assumed,
-               "Which strain rate the sliding friction acts on: total, inelastic or none. "
-               "Files may still say \"literal\" for the total strain rate.",
-               words, &Surface::friction) |
-          formerly({"literal", "total strain rate"}) |
+               "Which strain rate the sliding friction acts on: total, inelastic or none.", words,
+               &Surface::friction) |
           plausibly(plausible, "without friction heat the published temperatures are missed by 80 K",
                     Role{ActsOn::heat, Part::model}),
       number_key("localisation", Dimension::number, between(0, 1e6), Standing::calibrated,

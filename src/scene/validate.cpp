@@ -32,26 +32,6 @@ void check_names(const SceneFile& file) {
   check_names_of(file, "observation_point", "observation point", file.scene.output.observation_points);
 }
 
-void check_charge_fits(const SceneFile& file) {
-  const Scene& scene = file.scene;
-  const auto is_shell = [&](const Body& body) { return !is_charge(scene, body); };
-  if (std::ranges::none_of(scene.bodies, is_shell)) return;
-  const Extent shell = extent_where(scene, is_shell);
-  const double tolerance = length_tolerance(scene);
-  for (const Body& body : scene.bodies) {
-    if (!is_charge(scene, body)) continue;
-    for (const auto& [axis, begin, end, shell_begin, shell_end] :
-         {std::tuple{"x", body.x_begin, body.x_end, shell.x_begin, shell.x_end},
-          std::tuple{"r", body.r_begin, body.r_end, shell.r_begin, shell.r_end}}) {
-      if (begin >= shell_begin - tolerance && end <= shell_end + tolerance) continue;
-      throw fault_at(
-          file, fmt::format("body.{}.{}", body.name, axis),
-          fmt::format("\"{}\", which sticks out of the shell", range_text(begin, end)),
-          fmt::format("a charge within the shell, {} {}", axis, range_text(shell_begin, shell_end)));
-    }
-  }
-}
-
 void check_overlaps(const SceneFile& file) {
   const double tolerance = length_tolerance(file.scene);
   const auto& bodies = file.scene.bodies;
@@ -86,15 +66,6 @@ void check_cell_size(const SceneFile& file) {
                  fmt::format("at most {} for this body", length_text(largest)));
 }
 
-/// Where the mesh resolves several bodies not at all the cells are at fault, and not where a body ends.
-void check_cell_size_of_several(const SceneFile& file) {
-  const auto is_thin = [&](const Body& body) {
-    return 2.0 * std::min(body.x_end - body.x_begin, body.r_end - body.r_begin) <
-           file.scene.numerics.cell_size;
-  };
-  if (std::ranges::count_if(file.scene.bodies, is_thin) > 1) check_cell_size(file);
-}
-
 /// What only one of the formulations has is refused with the other, so that nobody believes it at work.
 void check_formulation(const SceneFile& file) {
   const Numerics& numerics = file.scene.numerics;
@@ -106,24 +77,6 @@ void check_formulation(const SceneFile& file) {
                                              {"numerics.selective_inertia", numerics.selective_inertia,
                                               "1" + with_it + "which has one factor on all inertia"}})
     if (factor > 1.0) throw fault_at(file, key, fmt::format("{:g}", factor), allowed);
-  for (const auto& [key, places] : {std::pair{"numerics.refined_x", &numerics.refined_x},
-                                    std::pair{"numerics.refined_r", &numerics.refined_r}})
-    if (!places->empty()) throw fault_at(file, key, length_text(places->front()), "absent" + even);
-}
-
-/// Refined lines belong to the bodies.
-void check_refinement(const SceneFile& file) {
-  const Extent all = extent_of(file.scene);
-  const double tolerance = length_tolerance(file.scene);
-  const Numerics& numerics = file.scene.numerics;
-  for (const auto& [key, places, what, begin, end] :
-       {std::tuple{"numerics.refined_x", &numerics.refined_x, "places in the shell, x ", all.x_begin,
-                   all.x_end},
-        std::tuple{"numerics.refined_r", &numerics.refined_r, "radii in the shell, r ", all.r_begin,
-                   all.r_end}})
-    for (const double place : *places)
-      if (place < begin - tolerance || place > end + tolerance)
-        throw fault_at(file, key, length_text(place), what + range_text(begin, end));
 }
 
 void check_kinetics(const SceneFile& file) {
@@ -166,18 +119,6 @@ void check_steel(const SceneFile& file) {
         fmt::format("{:.6g} K", law->strength.melting_temperature),
         fmt::format("a temperature above the room temperature, {:.6g} K", law->strength.room_temperature));
   }
-}
-
-void check_crack_friction(const SceneFile& file) {
-  const Given *flag = find_in(file.given, "charge.crack_friction"),
-              *coefficient = find_in(file.given, "charge.face_friction");
-  if (flag == nullptr || coefficient == nullptr) return;
-  const bool on = std::get<bool>(flag->value);
-  const double friction = std::get<double>(coefficient->value);
-  if (on == (friction > 0.0)) return;
-  throw fault_at(
-      file, "charge.crack_friction", fmt::format("{} with face_friction = {}", on, friction),
-      on ? "true with a face_friction above 0" : "false with a face_friction of 0, or without one");
 }
 
 void check_gaps(const SceneFile& file) {
@@ -249,17 +190,6 @@ void check_observation_points(const SceneFile& file) {
   }
 }
 
-/// In the lab frame the whole shell would fly as a heavier one.
-void check_inertia(const SceneFile& file) {
-  if (file.scene.frame == Frame::co_moving) return;
-  const Numerics& numerics = file.scene.numerics;
-  for (const auto& [key, factor] : {std::pair{"numerics.inertial_scaling", numerics.inertial_scaling},
-                                    std::pair{"numerics.selective_inertia", numerics.selective_inertia}})
-    if (factor > 1.0)
-      throw fault_at(file, key, fmt::format("{:.6g} in the lab frame", factor),
-                     "1 in the lab frame; more than 1 only with frame = \"co-moving\"");
-}
-
 void check_coupling(const SceneFile& file) {
   const Scene& scene = file.scene;
   if (scene.coupling == Coupling::one_way) return;
@@ -291,25 +221,15 @@ void check_output(const SceneFile& file) {
                    burns ? "times from 0 ms to combustion.duration after the load's end, " + time_text(last)
                          : "times from 0 ms to the load's duration, " + until);
   }
-  if (!burns && file.scene.output.asks_for(Event::burnt))
-    throw fault_at(file, "output.snapshot_events", "\"burnt\" with coupling = \"one-way\"",
-                   "the other events, or coupling = \"two-way\"");
 }
 
 }  // namespace
 
 void validate(const SceneFile& file) {
-  for (const auto check : {check_names,       check_cell_size_of_several,
-                           check_near_edges,  check_charge_fits,
-                           check_overlaps,    check_support,
-                           check_interfaces,  check_stations,
-                           check_cell_size,   check_load,
-                           check_kinetics,    check_equation_of_state,
-                           check_steel,       check_crack_friction,
-                           check_gaps,        check_observation_points,
-                           check_formulation, check_inertia,
-                           check_refinement,  check_coupling,
-                           check_output})
+  for (const auto check :
+       {check_names, check_near_edges, check_overlaps, check_support, check_interfaces, check_stations,
+        check_cell_size, check_load, check_kinetics, check_equation_of_state, check_steel, check_gaps,
+        check_observation_points, check_formulation, check_coupling, check_output})
     check(file);
 }
 

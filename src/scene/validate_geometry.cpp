@@ -15,29 +15,23 @@ std::string exact_range(double begin, double end) {
 }
 
 /// Of a body that begins or ends near a place (m); `what` lies there.
-InputError fault_of(const SceneFile& file, const Body& body, const Axis& along, bool at_end, double place,
+InputError fault_of(const SceneFile& file, const Body& body, const Axis& along, double place,
                     const std::string& what) {
-  const double begin = body.*along.begin, end = body.*along.end;
-  const std::string meant = at_end ? exact_range(begin, place) : exact_range(place, end);
   return fault_at(file, fmt::format("body.{}.{}", body.name, along.name),
-                  fmt::format("\"{}\", which {} {:.3g} mm from {}, {}", exact_range(begin, end),
-                              at_end ? "ends" : "begins", 1e3 * std::abs((at_end ? end : begin) - place),
-                              what, centimetres(place)),
+                  fmt::format("\"{}\", near {}, {}", exact_range(body.*along.begin, body.*along.end), what,
+                              centimetres(place)),
                   fmt::format("that place, or one at least {} away: a tenth of numerics.cell_size",
-                              length_text(least_distance * file.scene.numerics.cell_size)),
-                  fmt::format("{} = \"{}\"", along.name, meant));
+                              length_text(least_distance * file.scene.numerics.cell_size)));
 }
 
 void check_pair(const SceneFile& file, const Body& body, const Body& other, const Axis& along) {
   const double tolerance = length_tolerance(file.scene),
                least = least_distance * file.scene.numerics.cell_size;
-  for (const bool at_end : {false, true})
-    for (const bool others_end : {false, true}) {
-      const double place = other.*(others_end ? along.end : along.begin);
-      const double distance = std::abs(body.*(at_end ? along.end : along.begin) - place);
+  for (const auto own : {along.begin, along.end})
+    for (const auto others : {along.begin, along.end}) {
+      const double place = other.*others, distance = std::abs(body.*own - place);
       if (distance <= tolerance || distance >= least - tolerance) continue;
-      throw fault_of(file, body, along, at_end, place,
-                     fmt::format("the {} of the body \"{}\"", others_end ? "end" : "begin", other.name));
+      throw fault_of(file, body, along, place, fmt::format("an edge of the body \"{}\"", other.name));
     }
 }
 
@@ -51,30 +45,12 @@ double covered_length(const Scene& scene, const Body& charge, bool rear) {
   return length;
 }
 
-/// The next body behind the charge's bottom, if there is one.
-const Body* next_behind(const Scene& scene, const Body& charge) {
-  const Body* next = nullptr;
-  for (const Body& body : scene.bodies) {
-    const bool behind = body.x_begin > charge.x_end && overlap(body, charge, axis_r) > 0.0;
-    if (behind && (next == nullptr || body.x_begin < next->x_begin)) next = &body;
-  }
-  return next;
-}
-
-InputError open_bottom(const SceneFile& file, const Body& charge, bool in_part) {
-  const Body* next = next_behind(file.scene, charge);
+InputError open_bottom(const SceneFile& file, const Body& charge) {
   return fault_at(
       file, "gap.thickness",
-      fmt::format("a gap in the drawing: no body lies against {} of the bottom of \"{}\", x = {}, r {}{}",
-                  in_part ? "a part" : "any part", charge.name, centimetres(charge.x_end),
-                  exact_range(charge.r_begin, charge.r_end),
-                  next == nullptr
-                      ? ""
-                      : fmt::format("; \"{}\" begins at {}", next->name, centimetres(next->x_begin))),
-      "a bottom that bears on a body all over; the gap is no part of the drawing, gap.thickness says it",
-      next == nullptr || in_part
-          ? std::string{}
-          : fmt::format("body.{}.x = \"{}\"", next->name, exact_range(charge.x_end, next->x_end)));
+      fmt::format("a gap in the drawing: no body lies against all of the bottom of \"{}\", x = {}, r {}",
+                  charge.name, centimetres(charge.x_end), exact_range(charge.r_begin, charge.r_end)),
+      "a bottom that bears on a body all over; the gap is no part of the drawing, gap.thickness says it");
 }
 
 void check_ends(const SceneFile& file) {
@@ -85,7 +61,7 @@ void check_ends(const SceneFile& file) {
     for (const bool rear : {true, false}) {
       const double width = charge.r_end - charge.r_begin, covered = covered_length(scene, charge, rear);
       if (covered >= width - tolerance * static_cast<double>(scene.bodies.size())) continue;
-      if (rear && charge.x_end >= bottom - tolerance) throw open_bottom(file, charge, covered > tolerance);
+      if (rear && charge.x_end >= bottom - tolerance) throw open_bottom(file, charge);
       if (scene.open_charge) continue;
       throw fault_at(file, fmt::format("body.{}.x", charge.name),
                      fmt::format("\"{}\", where no body covers the {} of the charge, r {}, all over",
@@ -125,7 +101,7 @@ void check_chamber(const SceneFile& file) {
   const auto& stated = file.scene.load.obturation;
   throw fault_at(
       file, "load.obturation", (stated ? centimetres(*stated) + ", " : "") + chamber.unclear,
-      fmt::format("a driving band in a ring of the full radius, {}, that closes the chamber by itself "
+      fmt::format("a driving band in an annulus of the full radius, {}, that seals the chamber by itself "
                   "and with it the charge (the formulation \"total-lagrangian\" where not the "
                   "rearmost face alone is behind it)",
                   centimetres(extent_of(file.scene).r_end)));
@@ -139,8 +115,7 @@ void check_near_edges(const SceneFile& file) {
                least = least_distance * file.scene.numerics.cell_size;
   for (std::size_t j = 0; j < bodies.size(); ++j) {
     const Body& body = bodies[j];
-    if (body.r_begin > tolerance && body.r_begin < least)
-      throw fault_of(file, body, axis_r, false, 0.0, "the axis");
+    if (body.r_begin > tolerance && body.r_begin < least) throw fault_of(file, body, axis_r, 0.0, "the axis");
     for (std::size_t i = 0; i < j; ++i) {
       const Body& other = bodies[i];
       if (overlap(body, other, axis_x) < -least || overlap(body, other, axis_r) < -least) continue;

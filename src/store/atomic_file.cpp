@@ -9,13 +9,7 @@
 namespace launchsafe::store {
 namespace {
 
-constexpr std::string_view partial_suffix = ".partial";
-constexpr std::size_t digits = 8;
-
-std::string partial_name(std::string_view name, std::string_view number) {
-  const std::string check = sha256(fmt::format("{} {} is being written by launchsafe", number, name));
-  return fmt::format(".{}.{}{:.{}}{}", name, number, check, digits, partial_suffix);
-}
+constexpr std::string_view temporary_begin = ".launchsafe.", temporary_end = ".partial";
 
 /// Leaves nothing behind on a failure; false with errno set.
 bool write_new(const std::filesystem::path& path, std::string_view content) {
@@ -30,6 +24,15 @@ bool write_new(const std::filesystem::path& path, std::string_view content) {
 
 std::error_code last_error() { return {errno, std::generic_category()}; }
 
+/// Never over something that is there: then the error is file_exists.
+std::error_code move_to_free_name(const std::filesystem::path& from, const std::filesystem::path& to) {
+  if (::renameat2(AT_FDCWD, from.c_str(), AT_FDCWD, to.c_str(), RENAME_NOREPLACE) == 0) return {};
+  if (errno != EINVAL && errno != ENOSYS) return last_error();
+  // A file system without RENAME_NOREPLACE: a hard link fails on an existing target too.
+  if (::link(from.c_str(), to.c_str()) == 0 && ::unlink(from.c_str()) == 0) return {};
+  return last_error();
+}
+
 std::error_code publish(const std::filesystem::path& from, const std::filesystem::path& to,
                         IfExists if_exists) {
   if (if_exists == IfExists::refuse) return move_to_free_name(from, to);
@@ -38,22 +41,13 @@ std::error_code publish(const std::filesystem::path& from, const std::filesystem
 
 }  // namespace
 
-std::string temporary_name(std::string_view name) {
-  return partial_name(name, fmt::format("{:08x}", std::random_device{}()));
+bool is_temporary(std::string_view name) {
+  return name.starts_with(temporary_begin) && name.ends_with(temporary_end);
 }
 
-std::optional<std::string> name_behind(std::string_view temporary) {
-  constexpr std::size_t tail = 2 * digits + 1 + partial_suffix.size();
-  if (temporary.size() < tail + 2) return {};
-  const std::string_view name = temporary.substr(1, temporary.size() - tail - 1);
-  const std::string_view number = temporary.substr(name.size() + 2, digits);
-  return temporary == partial_name(name, number) ? std::optional<std::string>(name) : std::nullopt;
-}
-
-void remove_leftover(const std::filesystem::path& file) {
-  struct stat status {};
-  if (!name_behind(file.filename().string()) || ::lstat(file.c_str(), &status) != 0) return;
-  if (S_ISREG(status.st_mode)) ::unlink(file.c_str());
+void remove_leftovers(const std::filesystem::path& folder) {
+  for (const std::string& name : scene::list_folder(folder))
+    if (is_temporary(name)) ::unlink((folder / name).c_str());
 }
 
 std::filesystem::path folder_of(const std::filesystem::path& file) {
@@ -61,9 +55,10 @@ std::filesystem::path folder_of(const std::filesystem::path& file) {
 }
 
 MaybeError write_file_atomically(const std::filesystem::path& path, std::string_view content,
-                                 IfExists if_exists, const std::string& name) {
+                                 IfExists if_exists) {
   const std::filesystem::path temporary =
-      folder_of(path) / temporary_name(name.empty() ? path.filename().string() : name);
+      folder_of(path) / fmt::format("{}{}.{:08x}{}", temporary_begin, path.filename().string(),
+                                    std::random_device{}(), temporary_end);
   if (!write_new(temporary, content)) return write_error(path, errno);
   if (const std::error_code error = publish(temporary, path, if_exists)) {
     ::unlink(temporary.c_str());
@@ -73,24 +68,6 @@ MaybeError write_file_atomically(const std::filesystem::path& path, std::string_
   }
   if (!sync_folder(folder_of(path))) return write_error(path, errno);
   return {};
-}
-
-std::error_code move_to_free_name(const std::filesystem::path& from, const std::filesystem::path& to) {
-  if (::renameat2(AT_FDCWD, from.c_str(), AT_FDCWD, to.c_str(), RENAME_NOREPLACE) == 0) return {};
-  if (errno != EINVAL && errno != ENOSYS) return last_error();
-  // A file system without RENAME_NOREPLACE: a hard link fails on an existing target too.
-  if (::link(from.c_str(), to.c_str()) == 0 && ::unlink(from.c_str()) == 0) return {};
-  return last_error();
-}
-
-Result<std::filesystem::path> move_to_numbered_name(const std::filesystem::path& from,
-                                                    const std::filesystem::path& stem) {
-  for (int number = 1;; ++number) {
-    const std::filesystem::path to = fmt::format("{}-{}", stem.string(), number);
-    const std::error_code error = move_to_free_name(from, to);
-    if (!error) return to;
-    if (error != std::errc::file_exists) return write_error(to, error.value());
-  }
 }
 
 Result<std::string> read_file(const std::filesystem::path& path) {
@@ -115,20 +92,6 @@ Error refusal(const std::filesystem::path& path, std::string_view what) {
   return {Error::Kind::conflict,
           fmt::format("{} {}, and nothing is overwritten; move it away or name another folder", path.string(),
                       what)};
-}
-
-MaybeError obstacle_in_place(const std::filesystem::path& path,
-                             const std::function<bool(std::string_view content)>& is_ours) {
-  struct stat status {};
-  if (::lstat(path.c_str(), &status) != 0) return {};
-  if (!S_ISREG(status.st_mode)) return refusal(path, "is no plain file");
-  if (status.st_nlink > 1)
-    return refusal(path, "has several names (hard links), and writing under one would change the other");
-  if (!is_ours) return {};
-  const Result<std::string> content = read_file(path);
-  if (!content) return content.error();
-  if (content->empty() || is_ours(*content)) return {};
-  return refusal(path, foreign_file);
 }
 
 bool write_all(int file, std::string_view bytes) {

@@ -9,9 +9,9 @@ namespace launchsafe::store {
 
 /// The file format's own words, in the order of each enumeration; they stay when the program's messages
 /// change.
-inline constexpr std::array<std::string_view, 10> run_status_words{
+inline constexpr std::array<std::string_view, 9> run_status_words{
     "completed",   "non_finite", "energy_drift",    "time_step_collapse", "particles_left_grid",
-    "interrupted", "timed_out",  "cells_distorted", "outside_gas_law",    "flame_beyond_sound"};
+    "interrupted", "timed_out",  "cells_distorted", "outside_gas_law"};
 inline constexpr std::array<std::string_view, 2> ignition_cause_words{"trigger", "arrhenius"};
 static_assert(run_status_words.size() == static_cast<std::size_t>(run::last_status) + 1);
 
@@ -27,10 +27,6 @@ void lay_out_manifest(Archive& archive, Value& manifest) {
     archive.value("compiler", manifest.compiler, {"none", "compiler of the program"});
     archive.value("compiler_flags", manifest.compiler_flags, {"none", "flags of the compiler"});
     archive.value("build_type", manifest.build_type, {"none", "CMake build type"});
-    archive.group("libraries", "Libraries that the program was built with", [&] {
-      column(archive, "name", manifest.libraries, &LibraryVersion::name, {"none", "name of the library"});
-      column(archive, "version", manifest.libraries, &LibraryVersion::version, {"none", "its version"});
-    });
     archive.value("host", manifest.host, {"none", "machine"});
     integer(archive, "threads", manifest.threads, {"1", "threads that the program used"});
     archive.value("start_time", manifest.start_time, {"none", "start, ISO 8601, UTC"});
@@ -41,22 +37,20 @@ void lay_out_manifest(Archive& archive, Value& manifest) {
 template <class Archive, class Trace>
 void lay_out_trace(Archive& archive, Trace& trace) {
   using trace::Station;
-  archive.group("stations", "Rings of the charge's bottom, and observation points", [&] {
+  archive.group("stations", "Annuli of the charge's bottom, and observation points", [&] {
     column(archive, "name", trace.stations, &Station::name, {"none", "name"});
     column(archive, "x", trace.stations, &Station::x, {"m", "initial axial position"});
     column(archive, "r", trace.stations, &Station::r, {"m", "initial radial position"});
-    column(archive, "area", trace.stations, &Station::area, {"m2", "of the ring"});
+    column(archive, "area", trace.stations, &Station::area, {"m2", "of the annulus"});
     column(archive, "observation", trace.stations, &Station::observation, {"1", "1 for observation points"});
   });
   archive.array("time", trace.time, {"s", "time since the start of the load"});
   const std::size_t samples = trace.time.size();
-  history(archive, "chamber_pressure", trace.chamber_pressure, samples, {"Pa", "pressure on the base"});
-  history(archive, "bottom_pressure", trace.bottom_pressure, samples,
-          {"Pa", "area mean of the axial compression over the bottom row"});
-  history(archive, "mean_chamber_pressure", trace.mean_chamber_pressure, samples,
-          {"Pa", "chamber pressure, mean over the interval that ends at the sample"});
-  history(archive, "mean_bottom_pressure", trace.mean_bottom_pressure, samples,
-          {"Pa", "bottom pressure, mean over the interval that ends at the sample"});
+  archive.array("chamber_pressure", trace.chamber_pressure, {"Pa", "pressure on the base"});
+  archive.array("bottom_pressure", trace.bottom_pressure,
+                {"Pa", "area mean of the axial compression over the bottom row"});
+  archive.array("mean_bottom_pressure", trace.mean_bottom_pressure,
+                {"Pa", "bottom pressure, mean over the interval that ends at the sample"});
   for (std::size_t closure = 0; closure < trace::traced_closures; ++closure) {
     archive.table(
         "friction_" + std::string(materials::friction_closures[closure].stored_word), trace.friction[closure],
@@ -88,8 +82,6 @@ void lay_out_mechanics(Archive& archive, Value& mechanics) {
     archive.value("reason", mechanics.reason, {"none", "when and where, if not completed"});
     archive.value("end_time", mechanics.end_time, {"s", "time reached"});
     archive.value("steps", mechanics.steps, {"1", "time steps"});
-    archive.value("steps_before", mechanics.steps_before,
-                  {"1", "of them, up to the checkpoint from which the run went on"});
     archive.value("particles", mechanics.particles, {"1", "particles"});
     archive.value("wall_time", mechanics.wall_time, {"s", "wall time of the mechanics"});
     if constexpr (!Archive::reading)
@@ -177,8 +169,7 @@ void lay_out_gap(Archive& archive, Value& gap, const trace::BottomTrace& trace) 
   archive.group("skin", "Skin temperatures", [&] {
     archive.value("gap", skin.gap, {"m", "gap of this history"});
     archive.array("time", skin.time, {"s", "time"});
-    history(archive, "air_temperature", skin.air_temperature, skin.time.size(),
-            {"K", "temperature of the gap's air"});
+    archive.array("air_temperature", skin.air_temperature, {"K", "temperature of the gap's air"});
     archive.table("temperature", skin.temperature, {skin.time.size(), trace.stations.size()},
                   {"K", "skin temperature; rows are times, columns stations"});
   });

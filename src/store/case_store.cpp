@@ -1,6 +1,7 @@
 #include "launchsafe/store/case_store.hpp"
 
 #include "case_store_files.hpp"
+#include "launchsafe/scene/toml_reader.hpp"
 
 #include <cassert>
 #include <cerrno>
@@ -61,10 +62,6 @@ void drop_plain_tables(Database& database) {
 
 }  // namespace
 
-bool is_case_hash(std::string_view text) {
-  return text.size() == hash_digits && text.find_first_not_of("0123456789abcdef") == std::string_view::npos;
-}
-
 CaseIdentity::CaseIdentity(std::string input)
     : input_(std::move(input)), hash_(sha256(input_).substr(0, hash_digits)) {}
 
@@ -72,7 +69,6 @@ Result<std::unique_ptr<CaseStore>> CaseStore::open(const std::filesystem::path& 
                                                    const std::string& part,
                                                    std::function<void(const Error&)> on_failure) try {
   StoreNames names{folder, part};
-  demand_free(names);
   make_folder(folder);
   make_folder(names.cases());
   Database database = of_results(names.results(), [&] { return Database::open(names.results()); });
@@ -83,7 +79,8 @@ Result<std::unique_ptr<CaseStore>> CaseStore::open(const std::filesystem::path& 
   std::unique_ptr<CaseStore> store(
       new CaseStore(std::move(names), std::move(on_failure), std::move(database), true));
   store->take_over(others);
-  remove_leftovers_of(store->names_);
+  // A part may have living neighbours.
+  if (part.empty()) remove_leftovers(store->names_.cases());
   store->write_status();
   return store;
 } catch (const Error& error) {
@@ -129,29 +126,27 @@ std::vector<RunRecord> CaseStore::records() const {
   return records_in(database_);
 }
 
-bool CaseStore::holds(const std::string& hash) {
-  struct stat file {};
-  if (::stat(names_.case_file(hash).c_str(), &file) != 0 || is_given_up(hash)) return false;
-  return knows(hash, file) || adopt(hash);
+bool CaseStore::holds(const std::string& hash) const {
+  std::error_code failed;
+  if (!std::filesystem::exists(names_.case_file(hash), failed)) return false;
+  const std::lock_guard lock(using_);
+  return !damaged_.contains(hash);
 }
 
 Result<run::CaseResult> CaseStore::load(const std::string& hash) {
-  const std::filesystem::path path = names_.case_file(hash);
-  Result<StoredCase> stored = read_case_file(path);
-  if (stored && !belongs_to(stored->manifest, hash)) stored = of_another_case(path);
-  if (!stored) return give_up(hash, stored.error());
+  Result<StoredCase> stored = read_case_file(names_.case_file(hash));
+  if (!stored) {
+    const std::lock_guard lock(using_);
+    if (stored.error().kind == Error::Kind::corrupt && damaged_.insert(hash).second)
+      remarks_.push_back(stored.error().message + "; it does not count, and is computed again");
+    return stored.error();
+  }
   const std::optional<RunRecord> record = record_of(hash);
   if (record && record->state == CaseState::done) {
     stored->result.mechanics.wall_time = record->wall_time;
     stored->result.mechanics.processor_time = record->processor_time;
   }
   return std::move(stored->result);
-}
-
-Result<std::string> CaseStore::input_of(const std::string& hash) {
-  Result<Manifest> manifest = read_checked(names_.case_file(hash), hash);
-  if (!manifest) return give_up(hash, manifest.error());
-  return std::move(manifest->input_text);
 }
 
 void CaseStore::save(const CaseIdentity& identity, const scene::Scene& scene, run::CaseResult result,
@@ -171,14 +166,9 @@ void CaseStore::save(const CaseIdentity& identity, const scene::Scene& scene, ru
   result.mechanics.wall_time = result.mechanics.processor_time = 0;
   const Result<std::string> bytes = case_bytes(scene, result, manifest);
   const std::filesystem::path path = names_.case_file(record.hash);
-  const std::lock_guard one_at_a_time(naming_);
   if (failure()) return;
   if (!bytes) return fail(of_file(path, bytes.error()));
-  if (const MaybeError error = write_file(record.hash, *bytes)) return fail(*error);
-  struct stat file {};
-  if (::stat(path.c_str(), &file) != 0) return fail(write_error(path, errno));
-  record.file_size = size_of(file);
-  record.file_time = time_of(file);
+  if (const MaybeError error = write_file_atomically(path, *bytes, IfExists::replace)) return fail(*error);
   put(record);
   const std::lock_guard lock(using_);
   damaged_.erase(record.hash);
@@ -218,25 +208,18 @@ Result<CaseStore::Imported> CaseStore::import_from(const std::filesystem::path& 
   const std::vector<std::filesystem::path> files = results_files_in(other);
   if (files.empty())
     return Error{Error::Kind::missing, fmt::format("{} holds no results of a study", other.string())};
-  for (const std::filesystem::path& file : files) of_results(file, [&] { Database::demand_free(file); });
+  for (const std::filesystem::path& file : files)
+    if (Database::is_held(file)) throw told_who_writes({Error::Kind::held, {}}, file);
   const StoreNames theirs{other, {}};
-  for (const std::string& hash : stored_hashes(theirs)) {
+  for (const std::string& name : scene::list_folder(theirs.cases())) {
+    const std::filesystem::path file(name);
+    if (file.extension() != ".h5") continue;
+    const std::string hash = file.stem();
     if (holds(hash)) {
       ++imported.already_there;
       continue;
     }
-    const std::filesystem::path path = theirs.case_file(hash);
-    const Result<Manifest> manifest = read_checked(path, hash);
-    if (!manifest && manifest.error().kind != Error::Kind::corrupt) return manifest.error();
-    if (!manifest) {
-      remark(manifest.error().message + "; it was left there");
-      continue;
-    }
-    if (manifest->model_version != run::model_version)
-      return Error{Error::Kind::conflict,
-                   fmt::format("{} is a result of model version {}, this program's is {}", path.string(),
-                               manifest->model_version, run::model_version)};
-    if (const MaybeError error = take_file(path, hash)) return *error;
+    if (const MaybeError error = take_file(theirs.case_file(hash), hash)) return *error;
     ++imported.cases;
   }
   if (const MaybeError error = flush()) return *error;

@@ -2,15 +2,14 @@
 
 #include "posix_file.hpp"
 
-#include <sqlite3.h>
-
 #include <cerrno>
+#include <sqlite3.h>
 
 namespace launchsafe::store {
 namespace {
 
 constexpr int application_id = 0x4c534146;  // "LSAF", by which a results file of ours is known
-constexpr int schema_version = 3;
+constexpr int schema_version = 5;
 constexpr int patience = 500;  // ms, for a reader that is about to be done
 
 Error::Kind kind_of(int code) {
@@ -71,17 +70,13 @@ Database::Database(std::filesystem::path path, Handle handle)
 
 Error Database::error(int code) const {
   // Without the lock daemon of NFS, for example. SQLite calls that a file which another process holds.
-  const bool has_no_locks = code == SQLITE_IOERR_LOCK || code == SQLITE_IOERR_RDLOCK ||
-                            (kind_of(code) == Error::Kind::held && errno == ENOLCK);
+  const bool has_no_locks = kind_of(code) == Error::Kind::held && errno == ENOLCK;
   const Error::Kind kind = has_no_locks ? Error::Kind::write_failed : kind_of(code);
   const bool is_told = sqlite3_errcode(handle_.get()) != SQLITE_OK;
   std::string text =
       fmt::format("{}: {}", path_.string(), is_told ? sqlite3_errmsg(handle_.get()) : sqlite3_errstr(code));
   if ((code & 0xff) == SQLITE_NOTADB)
     return refusal(path_, "is no results file of launchsafe, or its beginning is damaged");
-  if (has_no_locks)
-    text +=
-        "; its file system knows no locks, without which two programs may write at once: name another folder";
   if (kind == Error::Kind::corrupt)
     text += "; it is damaged: move it away, and the study goes on with the case files beside it";
   return {kind, std::move(text)};
@@ -91,21 +86,11 @@ Error Database::error(int code) const {
 
 Database Database::connect(const std::filesystem::path& path, int flags) {
   sqlite3* opened = nullptr;
-  // SQLite would refuse a link to a folder too, which may be one.
-  std::error_code failed;
-  const std::filesystem::path folder = std::filesystem::canonical(folder_of(path), failed);
-  const std::filesystem::path followed =
-      failed || flags & SQLITE_OPEN_MEMORY ? path : folder / path.filename();
-  const int code = sqlite3_open_v2(followed.c_str(), &opened, flags | SQLITE_OPEN_NOFOLLOW, nullptr);
+  const int code = sqlite3_open_v2(path.c_str(), &opened, flags, nullptr);
   Database database(path, Handle(opened));
   if (code != SQLITE_OK) throw database.error(code);
   sqlite3_extended_result_codes(opened, 1);
   sqlite3_busy_timeout(opened, patience);
-  // A file from somebody else runs nothing of its own.
-  sqlite3_db_config(opened, SQLITE_DBCONFIG_DEFENSIVE, 1, nullptr);
-  for (const int feature :
-       {SQLITE_DBCONFIG_ENABLE_TRIGGER, SQLITE_DBCONFIG_ENABLE_VIEW, SQLITE_DBCONFIG_TRUSTED_SCHEMA})
-    sqlite3_db_config(opened, feature, 0, nullptr);
   return database;
 }
 
@@ -116,14 +101,9 @@ Database Database::open(const std::filesystem::path& path) {
   return database;
 }
 
-void Database::demand_free(const std::filesystem::path& path) {
-  connect(path, SQLITE_OPEN_READWRITE).check_format();
-}
-
 Database Database::in_memory(const std::filesystem::path& path) {
   Database database = connect(":memory:", SQLITE_OPEN_READWRITE | SQLITE_OPEN_MEMORY);
   database.path_ = path;
-  database.make_tables();
   return database;
 }
 
@@ -144,7 +124,7 @@ void Database::check_format() {
                            .front();
   const auto number = [&](std::size_t column) { return std::get<std::int64_t>(found[column]); };
   if (number(0) == 0 && number(1) == 0) return;
-  if (number(0) != application_id) throw refusal(path_, foreign_file);
+  if (number(0) != application_id) throw refusal(path_, "was not written by launchsafe");
   if (number(2) != schema_version)
     throw Error{Error::Kind::conflict,
                 fmt::format("{} is a results file of format {}, and this program's is {}; run the study anew "
@@ -152,35 +132,23 @@ void Database::check_format() {
                             path_.string(), number(2), schema_version)};
 }
 
-/// Takes the lock, which no commit gives back, and makes what is missing.
+/// Takes the lock, which no commit gives back, and marks a new file as ours.
 void Database::lock_and_prepare() {
   // A log beside the file (WAL) does not work on shared disks.
-  for (const char* statement : {"PRAGMA locking_mode = EXCLUSIVE", "PRAGMA synchronous = FULL",
-                                "BEGIN EXCLUSIVE", "COMMIT", "PRAGMA journal_mode = DELETE"})
+  for (const char* statement :
+       {"PRAGMA locking_mode = EXCLUSIVE", "PRAGMA synchronous = FULL", "BEGIN EXCLUSIVE"})
     run(statement);
-  check_pages("main");
-  if (!has_table("stored_texts")) make_tables();
-}
-
-void Database::make_tables() {
-  for (const std::string& statement : std::initializer_list<std::string>{
-           "BEGIN IMMEDIATE", fmt::format("PRAGMA application_id = {}", application_id),
-           fmt::format("PRAGMA user_version = {}", schema_version),
-           "CREATE TABLE stored_texts (number INTEGER PRIMARY KEY, text TEXT NOT NULL) STRICT",
-           "CREATE TABLE stored_events (time TEXT, host TEXT, process INTEGER, what TEXT) STRICT", "COMMIT"})
-    run(statement);
-}
-
-void Database::check_pages(const std::string& schema) {
-  const auto found = rows(fmt::format("PRAGMA {}.quick_check(1)", schema));
-  if (found.empty() || found.front() != SqlRow{std::string("ok")}) throw error(SQLITE_CORRUPT);
+  if (rows("PRAGMA application_id").front() == SqlRow{std::int64_t{0}}) {
+    run(fmt::format("PRAGMA application_id = {}", application_id));
+    run(fmt::format("PRAGMA user_version = {}", schema_version));
+  }
+  run("COMMIT");
+  run("PRAGMA journal_mode = DELETE");
 }
 
 Database Database::copy_of(const std::filesystem::path& path) {
   Database database = in_memory(path);
   database.copy_into("main", path);
-  // A kill at the very beginning leaves an empty file.
-  if (!database.has_table("stored_texts")) database.make_tables();
   return database;
 }
 
@@ -194,7 +162,6 @@ void Database::copy_into(const std::string& schema, const std::filesystem::path&
   const int code = sqlite3_backup_step(backup, -1);
   sqlite3_backup_finish(backup);
   if (code != SQLITE_DONE) throw file.error(code);
-  check_pages(schema);
 }
 
 // --- statements ---
@@ -235,14 +202,6 @@ bool Database::has_table(const std::string& name) {
 }
 
 bool Database::in_transaction() const { return sqlite3_get_autocommit(handle_.get()) == 0; }
-
-std::int64_t Database::number_of_text(const std::string& text) {
-  if (text.empty()) return 0;
-  constexpr std::size_t digits = 15;  // 60 bits: a positive number
-  const std::int64_t number = std::stoll(sha256(text).substr(0, digits), nullptr, 16);
-  run("INSERT OR IGNORE INTO stored_texts VALUES (?, ?)", {number, text});
-  return number;
-}
 
 void Database::roll_back() { try_to_run("ROLLBACK"); }
 

@@ -11,18 +11,6 @@ constexpr std::size_t text_step = 256;
 /// HDF5 prints its errors on stderr unless told otherwise, in every thread anew.
 void silence_hdf5() { H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr); }
 
-herr_t take_first(unsigned depth, const H5E_error2_t* entry, void* text) {
-  if (depth == 0 && entry->desc != nullptr) *static_cast<std::string*>(text) = entry->desc;
-  return 0;
-}
-
-/// The innermost cause on this thread's HDF5 error stack, such as "unable to open object".
-std::string hdf5_reason() {
-  std::string text;
-  H5Ewalk2(H5E_DEFAULT, H5E_WALK_UPWARD, take_first, &text);
-  return text.empty() ? "unknown HDF5 error" : text;
-}
-
 /// An access list whose files live in memory alone.
 Hdf5Id memory_access() {
   constexpr std::size_t growth = 1 << 20;
@@ -69,13 +57,6 @@ herr_t write_text_attribute(hid_t object, const std::string& name, const std::st
   return attribute.valid() ? H5Awrite(attribute.get(), type.get(), text.c_str()) : -1;
 }
 
-/// "/trace/stations" of a group or file and the name of something in it.
-std::string path_of(hid_t group, const std::string& name) {
-  std::string path(std::max<ssize_t>(0, H5Iget_name(group, nullptr, 0)), '\0');
-  H5Iget_name(group, path.data(), path.size() + 1);
-  return path + (path.ends_with("/") ? "" : "/") + name;
-}
-
 }  // namespace
 
 // --- both ---
@@ -83,9 +64,7 @@ std::string path_of(hid_t group, const std::string& name) {
 Hdf5File::Hdf5File(Error::Kind kind) : kind_(kind) { silence_hdf5(); }
 
 void Hdf5File::check(herr_t status, const std::string& name) const {
-  if (status >= 0) return;
-  const std::string reason = hdf5_reason();  // before the path, as to ask for that clears it
-  fail(path_of(here(), name) + ": " + reason);
+  if (status < 0) fail(name + " cannot be read or written as HDF5");
 }
 
 Hdf5Id Hdf5File::checked(hid_t id, Hdf5Id::Closer closer, const std::string& name) const {
@@ -101,7 +80,7 @@ Hdf5Writer::Hdf5Writer()
       dataset_creation_(untimed(H5P_DATASET_CREATE)) {
   if (const Hdf5Id access = memory_access(); access.valid())
     file_ = {H5Fcreate(unique_name().c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, access.get()), H5Fclose};
-  if (!file_.valid()) fail("cannot begin an HDF5 file: " + hdf5_reason());
+  if (!file_.valid()) fail("cannot begin an HDF5 file");
 }
 
 Hdf5Id Hdf5Writer::made(const std::string& name, const std::string& description) {
@@ -117,7 +96,7 @@ void Hdf5Writer::attribute(const std::string& name, const std::string& text) {
 
 void Hdf5Writer::put(const std::string& name, const Label& label, hid_t type,
                      const std::vector<hsize_t>& extent, const void* data) {
-  if (label.units.empty() || label.description.empty()) fail(path_of(here(), name) + " lacks its units");
+  if (label.units.empty() || label.description.empty()) fail(name + " lacks its units");
   const Hdf5Id space(extent.empty()
                          ? H5Screate(H5S_SCALAR)
                          : H5Screate_simple(static_cast<int>(extent.size()), extent.data(), nullptr),
@@ -148,8 +127,7 @@ void Hdf5Writer::array(const std::string& name, const std::vector<std::string>& 
 void Hdf5Writer::table(const std::string& name, const std::vector<double>& values, Shape shape,
                        const Label& label) {
   if (!values.empty() && values.size() != shape.rows * shape.columns)
-    fail(path_of(here(), name) + " has " + std::to_string(values.size()) + " values, not " +
-         std::to_string(shape.rows) + " x " + std::to_string(shape.columns));
+    fail(name + " has another number of values than its shape");
   put(name, label, hdf5_type<double>(), {values.empty() ? 0 : shape.rows, shape.columns}, values.data());
 }
 
@@ -158,19 +136,19 @@ std::string Hdf5Writer::finish() {
   const ssize_t size = flushed ? H5Fget_file_image(file_.get(), nullptr, 0) : 0;
   std::string image(static_cast<std::size_t>(std::max<ssize_t>(0, size)), '\0');
   if (size <= 0 || H5Fget_file_image(file_.get(), image.data(), image.size()) != size)
-    fail("cannot finish the HDF5 file: " + hdf5_reason());
+    fail("cannot finish the HDF5 file");
   return image;
 }
 
 // --- reading ---
 
-Hdf5Reader::Hdf5Reader(std::string_view image) : Hdf5File(Error::Kind::corrupt), image_size_(image.size()) {
+Hdf5Reader::Hdf5Reader(std::string_view image) : Hdf5File(Error::Kind::corrupt) {
   const Hdf5Id access = memory_access();
   // HDF5 copies the image; its signature lacks the const.
   if (access.valid() && !image.empty() &&
       H5Pset_file_image(access.get(), const_cast<char*>(image.data()), image.size()) >= 0)
     file_ = {H5Fopen(unique_name().c_str(), H5F_ACC_RDONLY, access.get()), H5Fclose};
-  if (!file_.valid()) fail("not a whole HDF5 file: " + hdf5_reason());
+  if (!file_.valid()) fail("not a whole HDF5 file");
 }
 
 bool Hdf5Reader::has(const std::string& name) const {
@@ -182,17 +160,6 @@ std::size_t Hdf5Reader::size() const {
   return H5Gget_info(here(), &info) < 0 ? 0 : info.nlinks;
 }
 
-void Hdf5Reader::attribute(const std::string& name, std::string& text) {
-  const Hdf5Id attribute(H5Aopen(here(), name.c_str(), H5P_DEFAULT), H5Aclose);
-  const Hdf5Id type(attribute.valid() ? H5Aget_type(attribute.get()) : -1, H5Tclose);
-  if (!type.valid() || H5Tget_class(type.get()) != H5T_STRING || H5Tis_variable_str(type.get()) != 0 ||
-      H5Tget_size(type.get()) > image_size_)
-    fail(path_of(here(), name) + ": no such text attribute");
-  text.assign(H5Tget_size(type.get()), '\0');
-  check(H5Aread(attribute.get(), type.get(), text.data()), name);
-  text.resize(std::min(text.find('\0'), text.size()));
-}
-
 Hdf5Reader::Dataset Hdf5Reader::open(const std::string& name, H5T_class_t type_class,
                                      std::size_t rank) const {
   Dataset set;
@@ -201,14 +168,10 @@ Hdf5Reader::Dataset Hdf5Reader::open(const std::string& name, H5T_class_t type_c
   const Hdf5Id space = checked(H5Dget_space(set.id.get()), H5Sclose, name);
   if (H5Tget_class(set.type.get()) != type_class ||
       H5Sget_simple_extent_ndims(space.get()) != static_cast<int>(rank))
-    fail(path_of(here(), name) + " has another type or number of dimensions");
+    fail(name + " has another type or number of dimensions");
   set.extent.resize(rank);
   H5Sget_simple_extent_dims(space.get(), set.extent.data(), nullptr);
-  // Each factor is compared by itself, so that no product overflows.
-  bool fits = std::ranges::all_of(set.extent, [this](hsize_t length) { return length <= image_size_; });
   for (const hsize_t length : set.extent) set.count *= length;
-  fits = fits && set.count <= image_size_ && H5Tget_size(set.type.get()) * set.count <= image_size_;
-  if (!fits) fail(path_of(here(), name) + " is larger than its file");
   return set;
 }
 
@@ -218,7 +181,6 @@ void Hdf5Reader::read(const std::string& name, const Dataset& set, hid_t type, v
 
 std::vector<std::string> Hdf5Reader::texts_of(const std::string& name, std::size_t rank) const {
   const Dataset set = open(name, H5T_STRING, rank);
-  if (H5Tis_variable_str(set.type.get()) != 0) fail(path_of(here(), name) + " has texts of variable length");
   const std::size_t length = H5Tget_size(set.type.get());
   std::string padded(length * set.count, '\0');
   read(name, set, set.type.get(), padded.data());
@@ -242,7 +204,7 @@ void Hdf5Reader::array(const std::string& name, std::vector<std::string>& texts,
 void Hdf5Reader::table(const std::string& name, std::vector<double>& values, Shape shape, const Label&) {
   const Dataset set = open(name, H5T_FLOAT, 2);
   if (set.count > 0 && (set.extent[0] != shape.rows || set.extent[1] != shape.columns))
-    fail(path_of(here(), name) + " has another shape than the data it belongs to");
+    fail(name + " has another shape than the data it belongs to");
   values.assign(set.count, 0.0);
   read(name, set, hdf5_type<double>(), values.data());
 }

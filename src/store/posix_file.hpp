@@ -6,8 +6,6 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-#include <functional>
-
 namespace launchsafe::store {
 
 /// An open file; closed at the end of its scope.
@@ -25,7 +23,7 @@ class Descriptor {
   }
   int number() const { return number_; }
   bool is_open() const { return number_ >= 0; }
-  /// False with errno set when closing reports a write error.
+  /// False with errno set when the close reports a write error.
   bool close() { return ::close(std::exchange(number_, -1)) == 0; }
 
  private:
@@ -43,24 +41,9 @@ Error of_file(const std::filesystem::path& path, const Error& error);
 
 /// "PATH WHAT, and nothing is overwritten ...", of kind conflict.
 Error refusal(const std::filesystem::path& path, std::string_view what);
-inline constexpr std::string_view foreign_file = "was not written by launchsafe";
-
-/// Why a file may not be written in place; nothing when it is not there, or when it is a regular file of one
-/// name and `is_ours`, where it is given, holds for its content. Changes nothing. Errors: conflict,
-/// unreadable.
-MaybeError obstacle_in_place(const std::filesystem::path& path,
-                             const std::function<bool(std::string_view content)>& is_ours);
 
 /// Writes all of it, however many calls that takes. False with errno set.
 bool write_all(int file, std::string_view bytes);
-
-/// Bytes.
-inline std::uint64_t size_of(const struct stat& status) { return static_cast<std::uint64_t>(status.st_size); }
-
-/// Modification time, ns since the epoch.
-inline std::int64_t time_of(const struct stat& status) {
-  return std::int64_t{status.st_mtim.tv_sec} * 1'000'000'000 + status.st_mtim.tv_nsec;
-}
 
 /// So that new names in the folder survive a power cut. False with errno set. Some network file systems
 /// cannot sync a folder; theirs is no failure.

@@ -22,11 +22,6 @@ bool fill(const Descriptor& file, const std::string& content) {
   return file.is_open() && write_all(file.number(), content) && ::lseek(file.number(), 0, SEEK_SET) == 0;
 }
 
-std::int64_t bytes_in(const Descriptor& file) {
-  struct stat status {};
-  return ::fstat(file.number(), &status) == 0 ? status.st_size : 0;
-}
-
 std::string written_on(const Descriptor& file) {
   std::string content;
   std::array<char, 1 << 12> part{};  // stacks may be small
@@ -74,8 +69,7 @@ bool has_ended(pid_t process) {
 }
 
 /// Waits for the end. Why it must not go on, or nothing once it has ended.
-std::string wait_for_end(pid_t process, const ProgramLimits& limits, const Descriptor& output,
-                         const Descriptor& errors) {
+std::string wait_for_end(pid_t process, const ProgramLimits& limits) {
   using namespace std::chrono_literals;
   const auto start = std::chrono::steady_clock::now();
   auto pause = 1ms;
@@ -84,8 +78,6 @@ std::string wait_for_end(pid_t process, const ProgramLimits& limits, const Descr
     if (limits.stop != nullptr && limits.stop->load()) return "the program was asked to stop";
     if (elapsed.count() > limits.time)
       return fmt::format("it was not done after {:.3g} s and was ended", limits.time);
-    if (std::max(bytes_in(output), bytes_in(errors)) > most_program_output)
-      return fmt::format("it wrote more than {} MiB and was ended", most_program_output >> 20);
     std::this_thread::sleep_for(pause);
     pause = std::min(2 * pause, 20ms);
   }
@@ -113,7 +105,7 @@ Result<ProgramOutput> run_program(const std::string& program, const std::vector<
     const auto kind = process == -ENOENT ? Error::Kind::missing : Error::Kind::failed;
     return Error{kind, fmt::format("cannot start {}: {}", program, system_reason(-process))};
   }
-  const std::string ended = wait_for_end(process, limits, out, errors);
+  const std::string ended = wait_for_end(process, limits);
   const bool succeeded = end_group(process);
   if (!ended.empty()) return Error{Error::Kind::failed, fmt::format("{}: {}", program, ended)};
   return ProgramOutput{written_on(out), written_on(errors), succeeded};

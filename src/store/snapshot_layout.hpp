@@ -17,10 +17,7 @@ template <class Archive, class Number>
 void integer(Archive& archive, const std::string& name, Number& value, const Label& label) {
   std::int64_t stored = static_cast<std::int64_t>(value);
   archive.value(name, stored, label);
-  if constexpr (Archive::reading) {
-    value = static_cast<Number>(stored);
-    if (static_cast<std::int64_t>(value) != stored) archive.fail(name + " is out of range");
-  }
+  if constexpr (Archive::reading) value = static_cast<Number>(stored);
 }
 
 /// An enumerator by its word; `words` are in the order of the enumeration.
@@ -51,21 +48,9 @@ void column(Archive& archive, const std::string& name, Rows& rows, Member member
     archive.array(name, values, label);
     if (rows.empty()) rows.resize(values.size());
     if (rows.size() != values.size()) archive.fail(name + " has another length than the columns before it");
-    for (std::size_t i = 0; i < rows.size(); ++i) {
+    for (std::size_t i = 0; i < rows.size(); ++i)
       std::invoke(member, rows[i]) = static_cast<Value>(values[i]);
-      if constexpr (std::is_integral_v<Value>)
-        if (static_cast<Stored>(std::invoke(member, rows[i])) != values[i])
-          archive.fail(name + " is out of range");
-    }
   }
-}
-
-/// An array that is as long as the times it belongs to, or empty where it was not recorded.
-template <class Archive, class Values>
-void history(Archive& archive, const std::string& name, Values& values, std::size_t length,
-             const Label& label) {
-  archive.array(name, values, label);
-  if (!values.empty() && values.size() != length) archive.fail(name + " has another length than its times");
 }
 
 /// Whether to lay out what some results lack: written where there is any, read where it is.
@@ -75,15 +60,12 @@ bool is_there(Archive& archive, const std::string& name, bool any) {
   return any;
 }
 
-inline constexpr std::array<std::string_view, 4> combustion_end_words{"time", "pressure", "broke_off",
-                                                                      "burnt_through"};
+inline constexpr std::array<std::string_view, 3> combustion_end_words{"time", "pressure", "broke_off"};
 inline const auto& stored_words(run::CombustionEnd) { return combustion_end_words; }
 
-/// The members of a result that a list describes; histories among them are as long as the first one, or
-/// empty.
+/// The members of a result that a list describes.
 template <class Archive, class Object, class Members>
 void lay_out_members(Archive& archive, Object& object, const Members& members) {
-  std::optional<std::size_t> length;
   const auto lay_out = [&](const auto& each) {
     auto& value = object.*each.member;
     using Value = std::remove_cvref_t<decltype(value)>;
@@ -91,9 +73,7 @@ void lay_out_members(Archive& archive, Object& object, const Members& members) {
     if constexpr (std::is_enum_v<Value>) {
       choice(archive, each.name, value, stored_words(value), label);
     } else if constexpr (std::is_same_v<Value, std::vector<double>>) {
-      if (!length) archive.array(each.name, value, label);
-      if (length) history(archive, each.name, value, *length, label);
-      if (!length) length = value.size();
+      archive.array(each.name, value, label);
     } else if constexpr (std::is_same_v<Value, bool> || std::is_same_v<Value, int>) {
       integer(archive, each.name, value, label);
     } else {
@@ -196,9 +176,9 @@ void lay_out_bottom(Archive& archive, Value& snapshot) {
     archive.array("lines", counted_up(2 * stations), {"1", "rows of points, two a station"});
   list(archive, "gaps", "The skin of one gap, by station", snapshot.skins, [&](auto& skin) {
     archive.value("gap", skin.gap, {"m", "thickness of the gap"});
-    history(archive, "temperature", skin.temperature, stations,
-            {"K", "temperature of the skin, which holds the heat of its sliding layers"});
-    history(archive, "reaction_degree", skin.reaction_degree, stations, {"1", "of the skin"});
+    archive.array("temperature", skin.temperature,
+                  {"K", "temperature of the skin, which holds the heat of its sliding layers"});
+    archive.array("reaction_degree", skin.reaction_degree, {"1", "of the skin"});
   });
 }
 
@@ -210,9 +190,9 @@ void lay_out_face(Archive& archive, Value& face) {
       {"m", "of the body against the charge since the start: along x on a side, along r on an end"});
   const std::size_t nodes = face.slip.size();
   plane_vectors(archive, "position", face.x, face.r, nodes, {"m", "axial, radial, 0; of the charge's face"});
-  history(archive, "contact_pressure", face.pressure, nodes, {"Pa", "normal traction, compression positive"});
-  history(archive, "shear", face.shear, nodes, {"Pa", "traction on the body in the direction of the slip"});
-  history(archive, "opening", face.opening, nodes, {"m", "by which the faces have parted"});
+  archive.array("contact_pressure", face.pressure, {"Pa", "normal traction, compression positive"});
+  archive.array("shear", face.shear, {"Pa", "traction on the body in the direction of the slip"});
+  archive.array("opening", face.opening, {"m", "by which the faces have parted"});
   if constexpr (!Archive::reading)
     archive.array("lines", links_of(nodes), {"1", "rows of the position, two a line"});
 }

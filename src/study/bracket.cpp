@@ -67,7 +67,6 @@ const ShareTraits& traits_of(ShareKind kind) {
       {"peak_pressure", "peak pressure", random, "a measured spread of the peak pressure"},
       {"pulse_length", "length of the pulse", random, "measured curves of several rounds"},
       {"initial_temperature", "initial temperature", random, "a narrower range of temperatures"},
-      {"muzzle_exit", "time of the muzzle exit", random, "a measured time of the exit"},
       {"stated_inputs", "inputs, as stated", random, "a better known launch"},
       {"load_curve", "errors of the measured curve", knowledge,
        "a gauge that samples faster, or less smoothing"},

@@ -8,86 +8,13 @@
 namespace launchsafe::study {
 namespace {
 
-/// Whether a row that was read was evaluated with the constants that have to be accepted, and states no less
-/// uncertainty than the study and the constants have at the least.
-bool is_as_uncertain(const GapVerdict& row, const std::vector<std::string>& calibrated_keys,
-                     const CaseStatements& statements, const Study& study, const StudyCase& input) {
-  const Uncertainty& u = row.uncertainty;
-  return std::ranges::equal(row.as_calibrated, calibrated_keys, {}, &AsCalibrated::key) &&
-         !(u.numerical < input.numerical_uncertainty) &&
-         !(u.fit < fit_share(study, statements.distance, {})) &&
-         !(u.model_form < stated_model_form_share(study, input, statements.model_form).value_or(0.0)) &&
-         !(u.input < stated_input_share(study, input));
-}
-
-/// Whether the shares of a critical gap that was read are all there that the study's case must have.
-bool has_all_shares(const CriticalGap& critical, const Study& study, const StudyCase& input,
-                    const CaseStatements& statements) {
-  const bool bounded = critical.kind == CriticalGapKind::value || critical.kind == CriticalGapKind::all_safe;
-  if (!study.kind.bounds_critical_gaps || !bounded) return true;
-  using enum ShareKind;
-  const bool spreads = propagates_spread(study);
-  const std::pair<ShareKind, bool> needed[] = {
-      {peak_pressure, spreads},
-      {pulse_length, spreads},
-      {initial_temperature, spreads},
-      {accepted, !skin_keys(statements.to_be_accepted()).empty()},
-      {computation, input.numerical_uncertainty > 0.0},
-      {fit, fit_share(study, statements.distance, {}) > 0.0},
-      {stated_inputs, stated_input_share(study, input) > 0.0},
-      {model_form, stated_model_form_share(study, input, statements.model_form).value_or(1.0) > 0.0}};
-  return std::ranges::all_of(needed, [&](const auto& each) {
-    return !each.second || std::ranges::count(critical.shares, each.first, &GapShare::kind) > 0;
-  });
-}
-
-/// Whether an answer that was read can be that of the study's case: its gaps, and margins and times that the
-/// case's scene allows, and no less uncertainty and no fewer validity warnings than its input has.
-bool fits(const CaseAnswer& answer, const Study& study, const StudyCase& input,
-          const CaseStatements& statements) {
-  const scene::Scene& scene = input.scene.scene;
-  const double ignition_temperature = scene.charge().kinetics.ignition_temperature;
-  // A step may end a little beyond the duration.
-  const double end = scene::end_time(scene.load) * (1.0 + 1e-6);
-  const auto is_late = [end](const Peak& peak) { return peak.time > end; };
-  const std::vector<double>& gaps = study.gaps;
-  if (answer.verdicts.size() != gaps.size()) return false;
-  if (answer.critical.kind == CriticalGapKind::value &&
-      answer.critical.upper > largest_gap(study) * (1.0 + 1e-9))
-    return false;
-  const auto has_warning = [&](const std::string& warning) {
-    return std::ranges::find(answer.validity_warnings, warning) != answer.validity_warnings.end();
-  };
-  std::vector<std::string> calibrated_keys;
-  if (study.kind.gives_verdicts) calibrated_keys = keys_as_calibrated(statements.to_be_accepted());
-  const bool is_asked = !study.kind.gives_verdicts || std::isfinite(answer.friction_rise);
-  if (answer.completed() && !(is_asked && std::ranges::all_of(statements.uncovered_load, has_warning) &&
-                              has_all_shares(answer.critical, study, input, statements)))
-    return false;
-  for (std::size_t i = 0; i < gaps.size(); ++i) {
-    const GapVerdict& row = answer.verdicts[i];
-    if (row.gap != gaps[i] || is_late(row.maximum) || is_late(row.early)) return false;
-    // Both are finite or both are not; the subtraction is the one by which the margin came about.
-    const double margin = ignition_temperature - row.maximum.temperature;
-    if (row.margin != margin && (std::isfinite(row.margin) || std::isfinite(margin))) return false;
-    if (std::isfinite(row.maximum.temperature) &&
-        !(std::isfinite(row.air.taken) && std::isfinite(row.air.supplied)))
-      return false;
-    if (answer.completed() && !is_as_uncertain(row, calibrated_keys, statements, study, input)) return false;
-    // Nothing cools a skin below where it began.
-    if (row.maximum.temperature < scene.initial_temperature - 1.0) return false;
-  }
-  return true;
-}
-
 /// Of what of a study influences an answer, and of the build, since answers are cheap to draw again, while
 /// one of an older program may be wrong.
 std::string digest_of_analysis(const Study& study) {
   std::string text =
-      fmt::format("# answer of launchsafe {} {}, model version {}\n{} {} {} {} {} {} {} {}\n",
-                  version::number, version::commit, run::model_version, fmt::join(study.gaps, ","),
-                  study.tolerance, study.largest_gap, study.fit_uncertainty, study.input_uncertainty,
-                  study.early_time, study.reference_line.slope, study.reference_line.intercept);
+      fmt::format("# answer of launchsafe {} {}, model version {}\n{} {} {} {} {} {}\n", version::number,
+                  version::commit, run::model_version, fmt::join(study.gaps, ","), study.tolerance,
+                  study.largest_gap, study.fit_uncertainty, study.input_uncertainty, study.early_time);
   for (const Reference& row : study.references)
     text += fmt::format("{} {} {} {} {} {} {}\n", row.gap, row.maximum_temperature, row.early_temperature,
                         row.spread, row.early_spread, row.ignition_time, row.calibrated);
@@ -100,8 +27,8 @@ std::string digest_of_analysis(const Study& study) {
   return store::sha256(text);
 }
 
-/// The stored answer to a case that rests on so many runs, if it is there and can be one. What is not is
-/// drawn again from the mechanics; a damaged result is computed again, also where its answers are known.
+/// The stored answer to a case that rests on so many runs, whose results are there too. What is not is drawn
+/// again from the mechanics.
 std::optional<CaseAnswer> stored_answer(const Study& study, const StudyCase& input, const std::string& key,
                                         std::size_t runs, store::CaseStore& store) {
   std::optional<CaseAnswer> answer;
@@ -110,7 +37,6 @@ std::optional<CaseAnswer> stored_answer(const Study& study, const StudyCase& inp
   if (!answer || answer->runs.size() != runs || !std::ranges::all_of(answer->runs, is_held))
     return std::nullopt;
   answer = judged(std::move(*answer), study, input);
-  if (!answer) return std::nullopt;
   answer->runs.clear();  // there may be a million answers
   // References are not stored: they are the study's.
   attach_references(study, input, answer->verdicts);
@@ -119,15 +45,11 @@ std::optional<CaseAnswer> stored_answer(const Study& study, const StudyCase& inp
 
 /// The key of the stored answer of a case: all that determines it and its runs. `analysis`: digest of what of
 /// the study does.
-std::string answer_key(const std::string& analysis, const StudyCase& input,
-                       const std::optional<NeighbouringLoads>& loads) {
+std::string answer_key(const std::string& analysis, const StudyCase& input) {
   scene::Scene scene = input.scene.scene;
   scene::clear_remarks(scene);
   scene.surface.gaps = {};
-  const std::string neighbours =
-      loads ? fmt::format(" between {} and {}, {}", loads->own_peak, loads->above_peak, loads->beside_peak)
-            : "";
-  return store::CaseIdentity(analysis + (input.own_conditions ? "own" : "other") + neighbours +
+  return store::CaseIdentity(analysis + (input.own_conditions ? "own" : "other") +
                              fmt::format(" {} {}\n", input.numerical_uncertainty, input.rise_of_uncertainty) +
                              scene::to_toml(scene))
       .hash();
@@ -153,19 +75,14 @@ struct AnswerRunner {
     return result;
   }
 
-  /// The key of the stored answer of a case.
-  std::string key_of(std::size_t member, const StudyCase& input) const {
-    return answer_key(analysis, input, neighbouring_loads(study, member));
-  }
-
   void fetch_stored() {
     if (options.store == nullptr || options.store->records().empty()) return;
     tbb::parallel_for(std::size_t{0}, cases.size(), [this](std::size_t i) {
       if (cases[i].shard != options.shard.index || stop_requested(options)) return;
       for (const std::size_t each : cases[i].members) {
         const StudyCase input = study.cases[each];
-        answers[each] =
-            stored_answer(study.study, input, key_of(each, input), cases[i].runs.size(), *options.store);
+        answers[each] = stored_answer(study.study, input, answer_key(analysis, input), cases[i].runs.size(),
+                                      *options.store);
       }
     });
   }
@@ -176,7 +93,7 @@ struct AnswerRunner {
     const auto is_answered = [this](std::size_t member) { return answers[member].has_value(); };
     std::erase_if(cases, [&](const CaseRuns& each) {
       if (!std::ranges::all_of(each.members, is_answered)) return false;
-      timing.reused += own_runs(each);
+      timing.reused += each.runs.size();
       tracker.expect_cases(each.members.size());
       for (const std::size_t member : each.members) ++(answers[member]->failure.empty() ? answered : failed);
       return true;
@@ -187,7 +104,6 @@ struct AnswerRunner {
 
   void answer_members(const std::vector<std::size_t>& members, std::vector<FinishedRun>& runs) {
     const std::vector<std::string> hashes = of_each(runs, &FinishedRun::hash);
-    if (const auto loads = neighbouring_loads(study, members.front())) interpolate_raised_load(*loads, runs);
     run_parts(members.size(), [&](std::size_t i) {
       if (answers[members[i]]) return;
       const FinishedRun* lacking = run_without_result(runs);
@@ -217,8 +133,9 @@ struct AnswerRunner {
     CaseAnswer answer = answer_from(study.study, input, runs);
     if (judged && options.store != nullptr && std::ranges::none_of(runs, was_cut_off)) {
       answer.runs = hashes;
-      options.store->write(
-          [&](store::Database& database) { return save_answer(database, key_of(member, input), answer); });
+      options.store->write([&](store::Database& database) {
+        return save_answer(database, answer_key(analysis, input), answer);
+      });
       answer.runs.clear();
     }
     return answer;
@@ -258,12 +175,10 @@ CaseAnswer failed_answer(const Study& study, const StudyCase& input, RunOutcome 
   return answer_of(outcome);
 }
 
-std::optional<CaseAnswer> judged(CaseAnswer answer, const Study& study, const StudyCase& input) {
-  CaseStatements statements = statements_of(study, input);
-  if (!fits(answer, study, input, statements)) return std::nullopt;
+CaseAnswer judged(CaseAnswer answer, const Study& study, const StudyCase& input) {
   const auto evidence = std::make_shared<const CaseEvidence>(
       CaseEvidence{answer.failure, answer.run.limiters, answer.validity_warnings, answer.friction_rise,
-                   std::move(statements)});
+                   statements_of(study, input)});
   // What its input says now, rather than when it was stored.
   if (GapReason reason = why_no_critical_gap(*evidence);
       reason.code != GapReasonCode::none && answer.critical.kind == CriticalGapKind::indeterminate)

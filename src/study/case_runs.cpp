@@ -86,42 +86,23 @@ scene::Scene with_raised_load(const scene::Scene& scene) {
 }
 
 /// The runs of the first of the cases that share them.
-void plan_runs(const StudyFile& study, bool checkpoints, CaseRuns& cases) {
-  const auto add = [&](std::size_t index, auto make) {
-    cases.runs.push_back({[of = &study, index, make] { return make(of->cases[index]); }});
-  };
+void plan_runs(const StudyFile& study, CaseRuns& cases) {
   const std::size_t first = cases.members.front();
+  const auto add = [&](auto make) {
+    cases.runs.push_back({[of = &study, first, make] { return make(of->cases[first]); }});
+  };
   // Where every case has runs of the same kinds none is made to know them.
-  const bool may_differ = study.study.in_detail || study.study.kind.goes_through_ignition;
-  const StudyCase input = may_differ ? study.cases[first] : StudyCase{};
-  const bool longer = study.study.in_detail && with_longer_launch(input.scene.scene);
-  add(first, [checkpoints = checkpoints || longer](const StudyCase& own) {
-    CaseRun run = mechanics_run(own.scene.scene, own.label);
-    run.checkpoints = checkpoints;
-    return run;
-  });
+  const StudyCase input = study.study.kind.goes_through_ignition ? study.cases[first] : StudyCase{};
+  add([](const StudyCase& own) { return mechanics_run(own.scene.scene, own.label); });
   for (const double gap : launched_gaps(study, input))
-    add(first, [gap](const StudyCase& own) {
+    add([gap](const StudyCase& own) {
       return skin_run(own.scene.scene, gap,
                       fmt::format("{}, through ignition at {:.6g} cm", own.label, 100.0 * gap));
     });
-  if (const auto loads = neighbouring_loads(study, first); loads && propagates_spread(study.study)) {
-    for (const std::size_t each : {loads->above, loads->beside}) {
-      add(each, [](const StudyCase& other) { return mechanics_run(other.scene.scene, other.label); });
-      cases.runs.back().first_run_of = each;
-    }
-  } else if (propagates_spread(study.study)) {
-    add(first, [](const StudyCase& own) {
+  if (propagates_spread(study.study))
+    add([](const StudyCase& own) {
       return mechanics_run(with_raised_load(own.scene.scene),
                            fmt::format("{}, load +{:.3g} %", own.label, 100.0 * assumed_load_spread));
-    });
-  }
-  if (longer)
-    add(first, [](const StudyCase& own) {
-      const bool cut_short = scene::is_cut_short(own.scene.scene.load);
-      return mechanics_run(
-          *with_longer_launch(own.scene.scene),
-          fmt::format("{}, {}", own.label, cut_short ? "until the launch is over" : "without muzzle exit"));
     });
 }
 
@@ -133,43 +114,9 @@ void predict_costs(std::vector<CaseRuns>& cases) {
   });
   for (std::size_t i = 0; i < cases.size(); ++i)
     for (std::size_t j = 0; j < cases[i].runs.size(); ++j) {
-      const std::vector<PlannedRun>& alike = cases[i - i % every].runs;
-      cases[i].runs[j].cost = alike[std::min(j, alike.size() - 1)].cost;
+      const std::vector<PlannedRun>& shared = cases[i - i % every].runs;
+      cases[i].runs[j].cost = shared[std::min(j, shared.size() - 1)].cost;
     }
-}
-
-/// The axis over the peak pressure of a full factorial, and how many cases lie between neighbours on it.
-struct PressureAxis {
-  std::vector<double> peaks;  ///< Pa, in the order written
-  std::size_t stride = 1;
-};
-
-/// Nothing where launches under other loads end at other times.
-std::optional<PressureAxis> pressure_axis(const StudyFile& study) {
-  if (study.scene.scene.load.muzzle_travel) return std::nullopt;
-  std::optional<PressureAxis> found;
-  std::size_t cases = 1;
-  for (std::size_t i = study.study.axes.size(); i-- > 0;) {
-    const Axis& axis = study.study.axes[i];
-    if (axis.key.name == "load.peak") found = {axis.values, cases};
-    cases *= axis.values.size();
-  }
-  return cases == study.cases.size() ? found : std::nullopt;
-}
-
-bool are_neighbours(double lower, double upper) {
-  const double ratio = upper / lower;
-  return ratio >= least_load_ratio && ratio <= largest_load_ratio;
-}
-
-/// The place of the pressure nearest to one among those that are its neighbours on one side.
-std::optional<std::size_t> neighbour_of(double peak, const std::vector<double>& peaks, bool above) {
-  std::optional<std::size_t> nearest;
-  for (std::size_t i = 0; i < peaks.size(); ++i) {
-    if (!(above ? are_neighbours(peak, peaks[i]) : are_neighbours(peaks[i], peak))) continue;
-    if (!nearest || std::abs(peaks[i] - peak) < std::abs(peaks[*nearest] - peak)) nearest = i;
-  }
-  return nearest;
 }
 
 }  // namespace
@@ -202,71 +149,54 @@ std::vector<int> shards_of(const std::vector<double>& costs, int count) {
   return shards;
 }
 
-std::size_t own_runs(const CaseRuns& runs) {
-  return std::ranges::count_if(runs.runs, [](const PlannedRun& run) { return !run.first_run_of; });
-}
-
-std::optional<scene::Scene> with_longer_launch(const scene::Scene& scene) {
-  std::optional<scene::Load> longer = scene::longer_launch(scene.load);
-  if (!longer) return std::nullopt;
-  scene::Scene other = scene;
-  other.load = std::move(*longer);
-  return other;
-}
-
 bool propagates_spread(const Study& study) {
   return study.kind.gives_verdicts && study.kind.bounds_critical_gaps &&
          !std::isfinite(study.input_uncertainty);
 }
 
-std::optional<NeighbouringLoads> neighbouring_loads(const StudyFile& study, std::size_t index) {
-  if (study.study.raised_load != RaisedLoad::interpolated) return std::nullopt;
-  const auto axis = pressure_axis(study);
-  if (!axis) return std::nullopt;
-  const std::vector<double>& peaks = axis->peaks;
-  const std::size_t own = index / axis->stride % peaks.size();
-  const auto above = neighbour_of(peaks[own], peaks, true);
-  auto beside = neighbour_of(peaks[own], peaks, false);
-  if (above && !beside) beside = neighbour_of(peaks[*above], peaks, true);
-  if (!above || !beside) return std::nullopt;
-  const auto at = [&](std::size_t place) { return index + (place - own) * axis->stride; };
-  const NeighbouringLoads loads{at(*above), at(*beside), peaks[own], peaks[*above], peaks[*beside]};
-  // One with a scene of its own may differ in more.
-  for (const std::size_t each : {index, loads.above, loads.beside})
-    if (study.cases.has_own_scene(each)) return std::nullopt;
-  return loads;
-}
-
-void interpolate_raised_load(const NeighbouringLoads& loads, std::vector<FinishedRun>& runs) {
-  const auto beside = runs.begin() + 2;
-  FinishedRun &own = runs[0], &raised = runs[1];
-  if (raised.has_result() && raised.failure.empty()) {
-    const auto trace = [](const FinishedRun& run) -> const trace::BottomTrace& {
-      return run.result.mechanics.trace;
-    };
-    if (!beside->has_result() || !beside->failure.empty()) {
-      raised = *beside;
-    } else if (auto between =
-                   trace::at_load((1.0 + assumed_load_spread) * loads.own_peak, {loads.own_peak, trace(own)},
-                                  {loads.above_peak, trace(raised)}, {loads.beside_peak, trace(*beside)})) {
-      raised.result.mechanics.trace = std::move(*between);
-    } else {
-      raised = {};
-      raised.failure = "the run failed: launches at neighbouring peak pressures end at other times";
-    }
-  }
-  runs.erase(beside);
-}
-
-std::vector<CaseRuns> case_runs(const StudyFile& study, int shards, bool checkpoints) {
+std::vector<CaseRuns> case_runs(const StudyFile& study, int shards) {
   std::vector<CaseRuns> cases = cases_by_runs(study);
-  tbb::parallel_for(std::size_t{0}, cases.size(),
-                    [&](std::size_t i) { plan_runs(study, checkpoints, cases[i]); });
+  tbb::parallel_for(std::size_t{0}, cases.size(), [&](std::size_t i) { plan_runs(study, cases[i]); });
   predict_costs(cases);
   const auto cost_of_first = [](const CaseRuns& each) { return each.runs.front().cost; };
   const std::vector<int> shard = shards_of(of_each(cases, cost_of_first), shards);
   for (std::size_t i = 0; i < cases.size(); ++i) cases[i].shard = shard[i];
   return cases;
+}
+
+Estimate estimate_of(const StudyFile& study, const StudyOptions& options) {
+  constexpr std::size_t most_looked_at = 1000;
+  Estimate estimate;
+  std::vector<CaseRuns> cases = case_runs(study, options.shard.count);
+  std::erase_if(cases, [&](const CaseRuns& each) { return each.shard != options.shard.index; });
+  for (const CaseRuns& each : cases) {
+    estimate.cases += each.members.size();
+    estimate.runs += each.runs.size();
+  }
+  if (cases.empty()) return estimate;
+  double looked_at = 0, stored = 0;
+  const std::size_t every = (cases.size() + most_looked_at - 1) / most_looked_at;
+  for (std::size_t i = 0; i < cases.size(); i += every)
+    for (const PlannedRun& planned : cases[i].runs) {
+      const CaseRun run = planned.make();
+      ++looked_at;
+      estimate.memory = std::max(estimate.memory, memory_of(run));
+      if (options.store != nullptr && options.store->holds(run.hash))
+        ++stored;
+      else
+        estimate.updates += planned.cost;
+    }
+  const double all = static_cast<double>(estimate.runs) / looked_at;
+  estimate.stored = static_cast<std::size_t>(std::llround(all * stored));
+  estimate.updates *= all;
+  estimate.coupled_runs = study.confirmations_per_case * estimate.cases;
+  if (estimate.coupled_runs > 0 && estimate.stored < estimate.runs) {
+    const StudyCase first = study.cases[cases.front().members.front()];
+    estimate.updates += static_cast<double>(estimate.coupled_runs) *
+                        cost_of(skin_run(first.scene.scene, study.study.largest_gap, {}));
+  }
+  estimate.jobs = std::max(1, std::min(jobs_of(options), static_cast<int>(estimate.runs)));
+  return estimate;
 }
 
 }  // namespace launchsafe::study

@@ -46,13 +46,13 @@ struct OfAllRows {
 };
 
 OfAllRows of_all_rows(const Study& study, const CaseOutcome& outcome) {
-  const auto rings = [](const BottomTrace& whole) {
+  const auto annuli = [](const BottomTrace& whole) {
     return std::make_shared<const BottomTrace>(trace::of_rings(whole));
   };
-  OfAllRows all{rings(outcome.result.mechanics.trace), load_curve_share(outcome.input.scene.scene.load),
+  OfAllRows all{annuli(outcome.result.mechanics.trace), load_curve_share(outcome.input.scene.scene.load),
                 raised_launches(study, outcome, End::towards_ignition)};
   for (RaisedLaunch& each : all.raised)
-    if (each.trace) each.trace = rings(*each.trace);
+    if (each.trace) each.trace = annuli(*each.trace);
   return all;
 }
 
@@ -108,7 +108,6 @@ GapVerdict row_of(const Study& study, const CaseOutcome& outcome, const OfAllRow
   row.until_exit = peak_of(surface::maximum_until(gap.skin, trace, read), trace);
   row.early = peak_of(surface::maximum_at_time(gap.skin, trace, study.early_time), trace);
   row.spread = surface::spread_at_time(gap.skin, trace, read);
-  row.early_spread = surface::spread_at_time(gap.skin, trace, study.early_time);
   row.margin = scene.charge().kinetics.ignition_temperature - gap.at_stations.temperature;
   row.heated = heated_temperature(scene, *all.trace, gap.gap);
   if (study.kind.gives_verdicts)
@@ -183,7 +182,7 @@ GapReason disagreement_of(const Confirmation& confirmation, const CriticalGap& t
   const GapReasonCode code = !confirmation.completed ? coupled_failed
                              : confirmation.ignited  ? coupled_ignites
                                                      : coupled_safe;
-  return {code, confirmation.gap, traced.lower, traced.upper, 0, confirmation.failure};
+  return {code, confirmation.gap, traced.lower, traced.upper, confirmation.failure};
 }
 
 /// Those of a completed run itself.
@@ -286,20 +285,6 @@ surface::SkinModel without_reaction(surface::SkinModel model) {
   return model;
 }
 
-std::vector<StationTemperature> station_temperatures(const surface::SkinHistory& skin,
-                                                     const trace::BottomTrace& trace) {
-  const std::size_t count = trace.stations.size();
-  std::vector<StationTemperature> stations;
-  for (std::size_t station = 0; station < count; ++station) {
-    if (trace.stations[station].observation) continue;
-    StationTemperature each{trace.stations[station].name, 0.0};
-    for (std::size_t i = station; i < skin.temperature.size(); i += count)
-      each.temperature = std::max(each.temperature, skin.temperature[i]);
-    stations.push_back(std::move(each));
-  }
-  return stations;
-}
-
 void evaluate(const Study& study, CaseOutcome& outcome) {
   if (has_trace(outcome))
     outcome.heated_without_gap =
@@ -340,20 +325,16 @@ void conclude(const Study& study, CaseOutcome& outcome) {
   const double coupling = coupling_share(outcome);
   const bool foreign = misses_calibrated_rows(outcome);
   std::vector<double> gaps, temperatures;
-  for (std::size_t i = 0; i < outcome.verdicts.size(); ++i) {
-    GapVerdict& row = outcome.verdicts[i];
+  for (GapVerdict& row : outcome.verdicts) {
     row.uncertainty.coupling = coupling;
     if (foreign)
       row.uncertainty.numerical = std::max(row.uncertainty.numerical, assumed_numerical_uncertainty);
-    if (outcome.longer_launch && scene::is_cut_short(outcome.input.scene.scene.load))
-      row.when_over = outcome.longer_launch->maximum_temperature.at(i);
     if (row.ignition || !outcome.completed()) continue;
     gaps.push_back(row.gap);
     temperatures.push_back(row.maximum.temperature);
   }
   judge_rows(study, outcome.evidence, outcome.critical, outcome.verdicts);
-  outcome.fit =
-      fit_gaps(gaps, temperatures, outcome.input.scene.scene.charge().kinetics, study.reference_line);
+  outcome.lines = fit_gaps(gaps, temperatures);
 }
 
 }  // namespace launchsafe::study

@@ -1,5 +1,4 @@
-// A launch on other terms than those of its verdicts: with one cause of uncertainty at an end of its range,
-// with air that conserves energy, and going on for longer.
+// A launch on other terms than those of its verdicts: with one cause of uncertainty at an end of its range.
 #include "launchsafe/study/case_answer.hpp"
 
 namespace launchsafe::study {
@@ -47,12 +46,6 @@ struct Causes {
   std::vector<RaisedLaunch> raised = {};
 
   void add_inputs() {
-    const scene::Load& load = outcome.input.scene.scene.load;
-    if (const auto exit = scene::exit_time(load); exit && load.muzzle_exit_spread > 0.0) {
-      const double delay = towards() ? load.muzzle_exit_spread : -load.muzzle_exit_spread;
-      add(ShareKind::muzzle_exit, skin,
-          std::make_shared<trace::BottomTrace>(trace::delayed(*trace, *exit, delay)));
-    }
     if (!outcome.raised) return;
     add(ShareKind::peak_pressure, skin, trace_at_pressure(outcome, end));
     add(ShareKind::pulse_length, skin, trace_of_length(outcome, end));
@@ -119,36 +112,6 @@ struct Causes {
   }
 };
 
-/// Whether all of a skin's temperatures are numbers and it does not ignite.
-bool is_safe(const surface::SkinHistory& history) {
-  return !history.ignition && !history.temperature.empty() && math::all_finite(history.temperature);
-}
-
-OtherAnswer answer_on(const Study& study, const StudyCase& input, const surface::SkinModel& model,
-                      const trace::BottomTrace& whole) {
-  const trace::BottomTrace trace = trace::of_rings(whole);
-  std::vector<double> gaps = study.gaps;
-  gaps.push_back(largest_gap(study));
-  std::vector<double> temperatures(gaps.size());
-  std::vector<char> safe(gaps.size());
-  run_parts(gaps.size(), [&](std::size_t i) {
-    const auto history = surface::integrate_skin(model, trace, gaps[i]);
-    temperatures[i] = surface::maximum_at_stations(history, trace).temperature;
-    safe[i] = is_safe(history);
-  });
-  OtherAnswer answer;
-  answer.maximum_temperature.assign(temperatures.begin(), temperatures.end() - 1);
-  const surface::IgnitionOfGaps ignites(model, trace);
-  if (std::ranges::count(safe, true) == std::ssize(safe)) {
-    answer.critical.kind = CriticalGapKind::all_safe;
-    answer.critical.lower = gaps.back();
-    answer.critical.reason = {.code = GapReasonCode::none_of_gaps, .gap = gaps.back(), .gaps = gaps.size()};
-  } else {
-    answer.critical = find_critical_gap(std::cref(ignites), gaps.back(), bracket_width(study));
-  }
-  return answer;
-}
-
 }  // namespace
 
 std::vector<RaisedLaunch> raised_launches(const Study& study, const CaseOutcome& outcome, End end,
@@ -157,17 +120,6 @@ std::vector<RaisedLaunch> raised_launches(const Study& study, const CaseOutcome&
   causes.add_inputs();
   if (row != nullptr) causes.add_knowledge(*row);
   return std::move(causes.raised);
-}
-
-void evaluate_longer_launch(const Study& study, const run::MechanicsResult& mechanics, CaseOutcome& outcome) {
-  const std::optional<scene::Scene> longer = with_longer_launch(outcome.input.scene.scene);
-  if (longer && mechanics.status == run::RunStatus::completed && mechanics.trace.samples() > 0) {
-    outcome.longer_launch = answer_on(study, outcome.input, surface::skin_model(*longer), mechanics.trace);
-    return;
-  }
-  OtherAnswer none{std::vector<double>(study.gaps.size(), not_a_number), {}};
-  none.critical.reason = {.code = GapReasonCode::longer_launch_failed, .because = failure_of(mechanics)};
-  outcome.longer_launch = std::move(none);
 }
 
 }  // namespace launchsafe::study

@@ -26,7 +26,6 @@ RunRecord entry_for(const CaseRun& run, CaseState state, std::string reason) {
   entry.label = run.label;
   entry.reason = std::move(reason);
   entry.model_version = run::model_version;
-  entry.predicted_updates = cost_of(run);
   return entry;
 }
 
@@ -36,8 +35,6 @@ struct CaseLoop {
     std::vector<FinishedRun> runs = {};
     std::atomic<std::size_t> left = 0;
     std::atomic<bool> spoilt = false;  ///< the first of them did not complete
-    /// The runs of other cases, by case and place, that are its first run.
-    std::vector<std::pair<std::size_t, std::size_t>> takers = {};
   };
 
   const std::vector<CaseRuns>& cases;
@@ -46,16 +43,13 @@ struct CaseLoop {
   Timing& timing;
   const OnCaseDone& on_done;
   std::vector<OpenCase> open_cases = std::vector<OpenCase>(cases.size());
-  std::unordered_map<std::size_t, std::size_t> case_of_member = {};  ///< of the shard that is run
   std::mutex mutex = {};
 
   void run() {
     for (std::size_t i = 0; i < cases.size(); ++i) {
       open_cases[i].runs.resize(cases[i].runs.size());
       open_cases[i].left = cases[i].runs.size();
-      if (cases[i].shard != options.shard.index) continue;
-      tracker.expect_cases(cases[i].members.size());
-      for (const std::size_t member : cases[i].members) case_of_member.emplace(member, i);
+      if (cases[i].shard == options.shard.index) tracker.expect_cases(cases[i].members.size());
     }
     std::vector<WaitingTask> tasks;
     std::vector<std::pair<std::size_t, std::size_t>> places;
@@ -65,10 +59,6 @@ struct CaseLoop {
         continue;
       }
       for (std::size_t j = 0; j < cases[i].runs.size(); ++j) {
-        if (const auto other = run_elsewhere(i, j)) {
-          open_cases[*other].takers.emplace_back(i, j);
-          continue;
-        }
         tasks.push_back({cases[i].runs[j].cost, [this, i, j] { return task_of(i, j); }});
         places.emplace_back(i, j);
         tracker.expect(1, tasks.back().cost);
@@ -86,39 +76,30 @@ struct CaseLoop {
     }
   }
 
-  /// The case of this loop whose first run is also that run of another case.
-  std::optional<std::size_t> run_elsewhere(std::size_t i, std::size_t j) const {
-    const auto& of_member = cases[i].runs[j].first_run_of;
-    const auto found = of_member ? case_of_member.find(*of_member) : case_of_member.end();
-    return found == case_of_member.end() ? std::nullopt : std::optional(found->second);
-  }
-
   /// Cheap where the result is stored.
   Task task_of(std::size_t i, std::size_t j) {
     constexpr double reading_share = 1e-3;
     const auto run = std::make_shared<const CaseRun>(cases[i].runs[j].make());
-    const auto work = [this, i, j, run](const Allotment& allotment) {
-      finish(i, j, perform(i, *run, allotment));
+    const auto work = [this, i, j, run](const ReportShare& report) {
+      finish(i, j, perform(i, *run, report));
     };
     if (options.store != nullptr && options.store->holds(run->hash))
-      return {reading_share * cost_of(*run), work, 0.0, {}};
-    if (std::string refusal = refusal_of(run->scene, options); !refusal.empty())
-      return {1.0, work, 0.0, std::move(refusal)};
-    return {cost_of(*run), work, memory_of(*run), {}};
+      return {reading_share * cost_of(*run), work};
+    return {cost_of(*run), work, memory_of(*run)};
   }
 
-  FinishedRun perform(std::size_t i, const CaseRun& run, const Allotment& allotment) {
+  FinishedRun perform(std::size_t i, const CaseRun& run, const ReportShare& report) {
     if (open_cases[i].spoilt)
       return without_result(RunOutcome::interrupted, "not run: the first run of its case did not complete");
-    FinishedRun finished = load_or_compute(run, allotment);
+    FinishedRun finished = load_or_compute(run, report);
     finished.hash = run.hash;
     count(finished);
     return finished;
   }
 
-  FinishedRun load_or_compute(const CaseRun& run, const Allotment& allotment) {
+  FinishedRun load_or_compute(const CaseRun& run, const ReportShare& report) {
     try {
-      if (options.store == nullptr) return with_result(compute(run, allotment), RunOutcome::ran);
+      if (options.store == nullptr) return with_result(compute(run, report), RunOutcome::ran);
       if (options.store->holds(run.hash)) {
         if (auto stored = options.store->load(run.hash))
           return with_result(std::move(*stored), RunOutcome::reused);
@@ -136,7 +117,7 @@ struct CaseLoop {
           return without_result(RunOutcome::failed, "the run failed: " + before->reason);
         return without_result(RunOutcome::not_stored, "the run failed: it is not stored");
       }
-      FinishedRun computed = with_result(compute(run, allotment), RunOutcome::ran);
+      FinishedRun computed = with_result(compute(run, report), RunOutcome::ran);
       keep(run, computed);
       return computed;
     } catch (const std::exception& error) {
@@ -148,10 +129,8 @@ struct CaseLoop {
     }
   }
 
-  run::CaseResult compute(const CaseRun& run, const Allotment& allotment) const {
-    const int threads = useful_threads(scene::particle_count(run.scene), allotment.threads);
-    const run::RunOptions run_options{options.stop,    options.time_limit, allotment.report_share, threads,
-                                      run.checkpoints, run.launch,         run.same_until};
+  run::CaseResult compute(const CaseRun& run, const ReportShare& report) const {
+    const run::RunOptions run_options{options.stop, options.time_limit, report};
     if (run.skin_gap) return options.runners.with_skin(run.scene, *run.skin_gap, run_options);
     run::CaseResult result;
     result.mechanics = options.runners.mechanics(run.scene, run_options);
@@ -173,11 +152,8 @@ struct CaseLoop {
       options.store->note(std::move(entry));
   }
 
-  /// Once: a study that is started again and again refuses the same run each time.
   void note_refusal(const CaseRun& run, const std::string& reason) {
     if (options.store == nullptr || !options.compute) return;
-    const auto before = options.store->record_of(run.hash);
-    if (before && before->state == CaseState::failed && before->reason == reason) return;
     options.store->note(entry_for(run, CaseState::failed, reason));
   }
 
@@ -189,17 +165,12 @@ struct CaseLoop {
       ++timing.reused;
     } else if (run.has_result() && computed) {
       ++timing.runs;
-      timing.particle_updates += mechanics.particle_updates();
-      timing.run_time += mechanics.work_time();
     }
   }
 
   void finish(std::size_t i, std::size_t j, FinishedRun run) {
     OpenCase& open = open_cases[i];
-    if (j == 0) {
-      open.spoilt = !run.failure.empty();
-      for (const auto& [other, place] : open.takers) finish(other, place, run);
-    }
+    if (j == 0) open.spoilt = !run.failure.empty();
     open.runs[j] = std::move(run);
     if (--open.left > 0) return;
     const FinishedRun* lacking = run_without_result(open.runs);
@@ -238,7 +209,7 @@ PlannedRun planned_run(CaseRun run) {
   return {[run = std::move(run)] { return run; }, cost};
 }
 
-double cost_of(const CaseRun& run) { return run.cost > 0.0 ? run.cost : cost_of(run.scene); }
+double cost_of(const CaseRun& run) { return cost_of(run.scene); }
 
 double memory_of(const CaseRun& run) {
   const run::Cost cost = run::cost_of(run.scene);
@@ -256,11 +227,6 @@ CaseRun skin_run(const scene::Scene& scene, double gap, std::string label) {
   own.surface.gaps = {gap};
   own.coupling = scene::Coupling::two_way;
   return planned(std::move(own), gap, std::move(label));
-}
-
-double continued_cost(const CaseRun& run) {
-  const run::Cost cost = run::cost_of(run.scene);
-  return scheduled(cost.coupled > 0.0 ? cost.coupled : cost.work);
 }
 
 store::CaseIdentity identity_of(const CaseRun& run) {
@@ -285,12 +251,6 @@ const FinishedRun* run_without_result(const std::vector<FinishedRun>& runs) {
 void run_cases(const std::vector<CaseRuns>& cases, const StudyOptions& options, ProgressTracker& tracker,
                Timing& timing, const OnCaseDone& on_done) {
   CaseLoop{cases, options, tracker, timing, on_done}.run();
-}
-
-std::string refusal_of(const scene::Scene& scene, const StudyOptions& options) {
-  if (!options.compute) return {};
-  const auto error = run::out_of_reach(scene, {.longest_run = options.longest_run});
-  return error ? error->message() : std::string{};
 }
 
 double cost_of(const scene::Scene& scene) {

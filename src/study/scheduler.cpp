@@ -8,7 +8,6 @@
 #include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
 #include <tbb/task_group.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <cmath>
@@ -17,7 +16,6 @@
 #include <fstream>
 #include <numeric>
 #include <optional>
-#include <thread>
 
 namespace launchsafe::study {
 namespace {
@@ -25,8 +23,7 @@ namespace {
 constexpr double too_early = 2.0;  ///< s of work from which nothing is learned
 
 /// One task from start to end, whatever it throws; nothing of one that is refused.
-void perform(const Task& task, const std::string& refusal, int threads, TaskOutcome& outcome,
-             ProgressTracker& tracker) {
+void perform(const Task& task, const std::string& refusal, TaskOutcome& outcome, ProgressTracker& tracker) {
   double reported = 0;
   const auto report_share = [&](double share) {
     const double now = std::clamp(share, reported, 1.0);
@@ -36,7 +33,7 @@ void perform(const Task& task, const std::string& refusal, int threads, TaskOutc
   outcome = {refusal.empty(), !refusal.empty(), refusal};
   tracker.started();
   try {
-    if (outcome.started) task.work({report_share, threads});
+    if (outcome.started) task.work(report_share);
   } catch (const std::exception& error) {
     outcome.failure = error.what();
     if (outcome.failure.empty()) outcome.failure = "an exception without a message";
@@ -88,12 +85,6 @@ class Queue {
     return std::nullopt;
   }
 
-  /// Threads for a task that was just taken, of so many jobs: its share where there are more jobs than tasks.
-  int threads_of_one(int jobs) {
-    const std::lock_guard lock(mutex_);
-    return std::max(1, jobs / static_cast<int>(std::clamp<std::size_t>(running_ + waiting_.size(), 1, 1024)));
-  }
-
   void give_back(const Task& task) {
     const std::lock_guard lock(mutex_);
     free_ += task.memory;
@@ -101,9 +92,9 @@ class Queue {
     changed_.notify_all();
   }
 
-  /// Why a task must not be begun, as perhaps it does not fit even alone; empty for one that may.
+  /// Why a task must not be begun, as it does not fit even alone; empty for one that may.
   std::string why_refused(const Task& task) const {
-    if (!task.refusal.empty() || !(task.memory > limit_)) return task.refusal;
+    if (!(task.memory > limit_)) return {};
     return fmt::format("it needs about {:.3g} GB of memory, and the limit is {:.3g} GB", 1e-9 * task.memory,
                        1e-9 * limit_);
   }
@@ -111,12 +102,7 @@ class Queue {
  private:
   const Task& made(std::size_t index) {
     std::optional<Task>& task = made_[index];
-    if (task) return *task;
-    try {
-      task = tasks_[index].make();
-    } catch (const std::exception& error) {
-      task = Task{tasks_[index].cost, {}, 0.0, error.what()};
-    }
+    if (!task) task = tasks_[index].make();
     return *task;
   }
 
@@ -133,11 +119,9 @@ class Queue {
 
 namespace fs = std::filesystem;
 
-constexpr const char* control_root = "/sys/fs/cgroup";
-
 /// The root of the control groups and, below it, the process's own ones (version 2) from the top down.
 std::vector<fs::path> control_groups() {
-  std::vector<fs::path> groups{control_root};
+  std::vector<fs::path> groups{"/sys/fs/cgroup"};
   std::ifstream stream("/proc/self/cgroup");
   for (std::string line; std::getline(stream, line);) {
     if (!line.starts_with("0::/")) continue;
@@ -172,56 +156,13 @@ double machine_memory() {
   return unlimited;
 }
 
-/// What a limit leaves beside what is used, by the numbers in two files (bytes), of which `given_up` may go.
-/// In version 1 the limit is a huge number where there is none.
-double left_of(const fs::path& limit_file, const fs::path& used_file, double given_up) {
+/// What a limit leaves beside what is used, by the numbers in two files (bytes).
+double left_of(const fs::path& limit_file, const fs::path& used_file) {
   const double limit = number_read_from(limit_file), used = number_read_from(used_file);
-  if (!(limit < 1e15)) return unlimited;
-  return std::max(0.0, limit - (used == unlimited ? 0.0 : used) + given_up);
-}
-
-/// Bytes of the file cache of a control group (version 2), which is given up under pressure.
-double cache_of(const fs::path& group) {
-  double cache = 0;
-  std::ifstream stream(group / "memory.stat");
-  std::string name;
-  for (double value = 0; stream >> name >> value;)
-    if (name == "inactive_file" || name == "active_file") cache += value;
-  return cache;
-}
-
-/// Tasks of others that run on the machine now, the fewest of a few looks: most run for a moment. None where
-/// nothing tells.
-int busy_processors() {
-  constexpr int looks = 5;
-  int fewest = std::numeric_limits<int>::max();
-  for (int look = 0; look < looks; ++look) {
-    std::ifstream stream("/proc/loadavg");
-    std::string one, five, fifteen;
-    int running = 1;  // this one
-    stream >> one >> five >> fifteen >> running;
-    fewest = std::min(fewest, running - 1);
-    std::this_thread::sleep_for(std::chrono::milliseconds(2));
-  }
-  return fewest;
+  return std::max(0.0, limit - (used == unlimited ? 0.0 : used));
 }
 
 }  // namespace
-
-int threads_beside(int cores, int processors, int busy) {
-  return std::clamp(processors - busy, 1, std::max(1, cores));
-}
-
-int useful_threads(std::int64_t particles, int threads) {
-  constexpr std::int64_t fewest_of_a_thread = 1500;
-  return static_cast<int>(std::clamp<std::int64_t>(particles / fewest_of_a_thread, 1, std::max(1, threads)));
-}
-
-int threads_for_one_run(std::int64_t particles) {
-  const int useful = useful_threads(particles, available_cores());
-  if (useful == 1) return 1;
-  return threads_beside(useful, static_cast<int>(sysconf(_SC_NPROCESSORS_ONLN)), busy_processors());
-}
 
 int available_cores() {
   int cores = std::max(1, tbb::info::default_concurrency());  // by affinity
@@ -230,19 +171,13 @@ int available_cores() {
   for (const fs::path& group : control_groups())
     if (std::ifstream stream(group / "cpu.max"); stream >> quota >> period)
       cores = limited(cores, quota, period);
-  const fs::path version_1 = fs::path(control_root) / "cpu";
-  quota = period = 0;
-  std::ifstream(version_1 / "cpu.cfs_quota_us") >> quota;
-  std::ifstream(version_1 / "cpu.cfs_period_us") >> period;
-  return limited(cores, quota, period);
+  return cores;
 }
 
 double available_memory() {
-  const fs::path version_1 = fs::path(control_root) / "memory";
-  double memory = std::min(machine_memory(), left_of(version_1 / "memory.limit_in_bytes",
-                                                     version_1 / "memory.usage_in_bytes", 0.0));
+  double memory = machine_memory();
   for (const fs::path& group : control_groups())
-    memory = std::min(memory, left_of(group / "memory.max", group / "memory.current", cache_of(group)));
+    memory = std::min(memory, left_of(group / "memory.max", group / "memory.current"));
   return memory;
 }
 
@@ -290,10 +225,6 @@ void ProgressTracker::count_busy() {
 
 void ProgressTracker::started() {
   const std::lock_guard lock(mutex_);
-  if (first_start_ < 0) {
-    first_start_ = clock_();
-    cases_before_ = progress_.cases_done;
-  }
   count_busy();
   ++progress_.running;
   most_running_ = std::max(most_running_, progress_.running);
@@ -330,9 +261,6 @@ void ProgressTracker::report() {
   if (!callback_) return;
   progress_.fraction = cost_ > 0 ? std::clamp(cost_done_ / cost_, 0.0, 1.0) : 0.0;
   progress_.seconds_left = seconds_left();
-  const double elapsed = first_start_ < 0 ? 0.0 : busy_since_ - first_start_;
-  if (elapsed > 0)
-    progress_.cases_per_second = static_cast<double>(progress_.cases_done - cases_before_) / elapsed;
   callback_(progress_);
 }
 
@@ -349,7 +277,7 @@ std::vector<TaskOutcome> run_tasks(const std::vector<WaitingTask>& tasks, const 
       const auto& [index, task] = *taken;
       tracker.expect(0, task.cost - tasks[index].cost);
       const std::string refusal = queue.why_refused(task);
-      perform(task, refusal, queue.threads_of_one(jobs), outcomes[index], tracker);
+      perform(task, refusal, outcomes[index], tracker);
       if (refusal.empty()) queue.give_back(task);
     }
   };

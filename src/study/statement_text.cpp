@@ -38,16 +38,14 @@ constexpr std::array<RuleWords, 18> rules{{
     {"below-bound", "below the lower bound of the critical gap, {at_least:.3g} cm"},
 }};
 /// In the order of GapReasonCode.
-constexpr std::array<const char*, 12> gap_reasons{
+constexpr std::array<const char*, 10> gap_reasons{
     "",
     "the temperature at a gap of {gap} is not a number",
     "no ignition up to {gap}, where the search ended",
-    "none of {gaps} gaps up to {gap} ignites",
     "not monotone: no ignition at {gap} again",
     "ignition at every gap, also without one",
     "{because}",
     "validity warning: {because}",
-    "the run of the longer launch: {because}",
     "the coupled run at {gap} did not complete: {because} {traced}",
     "the coupled run at {gap} ignites, the traced temperatures do not {traced}",
     "the coupled run at {gap} does not ignite, the traced temperatures do {traced}"};
@@ -77,11 +75,7 @@ std::string cause_text(const GapVerdict& row) {
 
 std::string validity_warnings_text(const GapVerdict& row) {
   if (row.of_case == nullptr) return {};
-  std::string text = fmt::format("{}", fmt::join(row.of_case->validity_warnings, "; "));
-  if (std::isfinite(row.when_over))
-    text += fmt::format("; when it is over T max is {:.1f} K, and the ignition temperature is {:.1f} K",
-                        row.when_over, row.maximum.temperature + row.margin);
-  return text;
+  return fmt::format("{}", fmt::join(row.of_case->validity_warnings, "; "));
 }
 
 std::string unaccepted_text(const CaseStatements& input) {
@@ -125,8 +119,8 @@ std::string text_of(const GapReason& reason) {
   const auto traced =
       fmt::format("(traced bracket {:.6g} to {})", 100.0 * reason.lower, in_centimetres(reason.upper));
   return fmt::format(fmt::runtime(gap_reasons.at(static_cast<std::size_t>(reason.code))),
-                     fmt::arg("gap", in_centimetres(reason.gap)), fmt::arg("gaps", reason.gaps),
-                     fmt::arg("because", reason.because), fmt::arg("traced", traced));
+                     fmt::arg("gap", in_centimetres(reason.gap)), fmt::arg("because", reason.because),
+                     fmt::arg("traced", traced));
 }
 
 GapReason why_no_critical_gap(const CaseEvidence& of_case) {
@@ -152,7 +146,6 @@ std::string reason_text(const GapVerdict& row) {
   add(limiters.empty() ? limiters : "limiters acted: " + limiters);
   add(models_text(row));
   add(extrapolated_text(row));
-  if (of_case.input.demonstration) add("a demonstration, with an invented shell");
   // The user's words come last: what the program says stands before them, whatever they are.
   add(accepted_text(of_case.input));
   return text;

@@ -1,4 +1,4 @@
-// The scene keys that a study varies, what is wrong with a study and where, and the limits that it cites.
+// The scene keys that a study varies, and what is wrong with a study and where.
 #include "launchsafe/study/study_cases.hpp"
 
 namespace launchsafe::study {
@@ -13,26 +13,13 @@ std::string joined(const std::vector<std::string>& words) {
 }
 
 /// The fault of a name that no scene key and no short name has, or of a scene key that takes no number.
-InputError unfit_key(const StudyFile& study, const std::string& name, const std::string& faulty_key,
-                     const Place& place, const std::vector<std::string>& short_names) {
-  if (const auto any = scene::describe_key(study.scene, name, place)) {
-    constexpr std::array takes{"a number", "true or false", "a word", "words", "a text", "a list", "a range"};
-    return scene::error_at(
-        place, faulty_key,
-        fmt::format("{}, which takes {}", name, takes.at(static_cast<std::size_t>(any->kind))),
-        "a scene key that takes one number, or " + joined(short_names));
-  }
-  std::vector<std::string> known = short_names;
-  for (const auto& key : scene::scene_keys()) {
-    if (key.kind == KeyKind::number) known.push_back(key.name);
-  }
-  const InputError unknown = scene::unknown_key(place, name, known);
+InputError unfit_key(const std::string& name, const std::string& faulty_key, const Place& place,
+                     std::vector<std::string> known) {
   const std::string allowed =
-      unknown.allowed.starts_with("in [")
-          ? unknown.allowed
-          : joined(short_names) + ", or a scene key that takes one number, such as load.steepness";
-  return scene::error_at(place, faulty_key, fmt::format("the unknown key \"{}\"", name), allowed,
-                         unknown.suggestion);
+      joined(known) + ", or a scene key that takes one number, such as load.steepness";
+  for (const auto& key : scene::scene_keys())
+    if (key.kind == KeyKind::number) known.push_back(key.name);
+  return scene::error_at(place, faulty_key, '"' + name + '"', allowed, scene::nearest_of(name, known));
 }
 
 /// The peak matters under a measured curve that is rescaled to it; the other numbers of the analytic shape
@@ -40,53 +27,8 @@ InputError unfit_key(const StudyFile& study, const std::string& name, const std:
 void check_load_axis(const StudyFile& study, const std::string& key, const std::string& scene_key) {
   const auto* known = scene::find_key(scene::scene_keys(), scene_key);
   if (known == nullptr || !known->is_replaced || !known->is_replaced(study.scene.scene)) return;
-  if (scene_key == "load.peak")
-    refuse_at(study, key, "peak pressures for a measured curve that is not rescaled",
-              "peak pressures with load.rescale_to_peak = true in the scene");
   refuse_at(study, key, scene_key + ", which a measured curve does not have",
             "a scene without a measured curve, or a key that has an effect");
-}
-
-/// Of so many cases those whose peak pressure is nearest to one (Pa): the ones that have the defect of the
-/// study's scene, or all where none has.
-std::vector<std::size_t> nearest_cases(const StudyFile& study, std::size_t count, double peak_pressure) {
-  const materials::ViscoScramParameters& own = study.scene.scene.charge().strength;
-  std::vector<std::size_t> nearest, of_own_defect;
-  double least = math::infinity;
-  for (std::size_t i = 0; i < count; ++i) {
-    const StudyCase each = study.cases[i];
-    const double distance = std::abs(each.peak_pressure - peak_pressure), slack = 1e-9 * peak_pressure;
-    if (distance > least + slack) continue;
-    if (distance < least - slack) nearest = of_own_defect = {};
-    least = std::min(least, distance);
-    nearest.push_back(i);
-    if (each.has_defect(own)) of_own_defect.push_back(i);
-  }
-  return of_own_defect.empty() ? nearest : of_own_defect;
-}
-
-LimitComparison compare(const StudyFile& study, const std::vector<const CriticalGap*>& critical,
-                        const CitedLimit& limit) {
-  LimitComparison comparison;
-  comparison.limit = limit;
-  const double pressure = std::isnan(limit.peak_pressure)
-                              ? scene::PressureHistory(study.scene.scene.load).stated_peak()
-                              : limit.peak_pressure;
-  const std::size_t count = std::min(study.cases.size(), critical.size());
-  const std::vector<std::size_t> cases = nearest_cases(study, count, pressure);
-  comparison.cases = cases.size();
-  if (cases.empty()) return comparison;
-  // In the order of the smallest that the critical gap may be.
-  const auto smallest = [&](std::size_t i) {
-    const GapOrBound gap = gap_or_bound(*critical[i]);
-    return std::isnan(gap) ? -1.0 : gap;
-  };
-  const std::size_t nearest = *std::ranges::min_element(cases, {}, smallest);
-  comparison.nearest = nearest;
-  const double off = std::abs(study.cases[nearest].peak_pressure - pressure);
-  if (critical[nearest]->kind == CriticalGapKind::value && off <= pressure_slack * pressure)
-    comparison.difference = critical[nearest]->value - limit.gap;
-  return comparison;
 }
 
 }  // namespace
@@ -135,18 +77,11 @@ KeyDescription varied_key(const StudyFile& study, const std::string& name, const
   const std::string& wanted = named == named_axes().end() ? name : named->key;
   auto key = scene::describe_key(study.scene, wanted, place);
   if (key && key->kind == KeyKind::number) return std::move(*key);
-  throw unfit_key(study, name, faulty_key, place, of_each(named_axes(), &NamedAxis::name));
+  throw unfit_key(name, faulty_key, place, of_each(named_axes(), &NamedAxis::name));
 }
 
 double number_in(const scene::SceneFile& file, const std::string& key) {
   return std::get<double>(scene::value_in(file, key));
-}
-
-std::vector<double> spaced_values(double from, double to, int count) {
-  std::vector<double> values;
-  for (int i = 0; i + 1 < count; ++i) values.push_back(from + (to - from) / (count - 1) * i);
-  values.push_back(to);
-  return values;
 }
 
 void check_load_axes(const StudyFile& study) {
@@ -181,31 +116,6 @@ void check_twice(const StudyFile& study, const std::string& key, scene::Dimensio
   });
   if (twice != values.end())
     refuse_at(study, key, scene::format_quantity(*twice, dimension) + " twice", "each value once");
-}
-
-const std::vector<scene::Key<CitedLimit>>& cited_limit_keys() {
-  static const std::vector<scene::Key<CitedLimit>> keys{
-      scene::number_key("gap", scene::Dimension::length, scene::above(0), scene::Standing::literature,
-                        "Largest gap that others allow.", &CitedLimit::gap) |
-          scene::required(),
-      scene::number_key(
-          "peak_pressure", scene::Dimension::pressure, scene::above(0), scene::Standing::literature,
-          "Peak pressure that it was found for; absent where none was stated.", &CitedLimit::peak_pressure),
-      scene::text_key("source", scene::Standing::literature, "Who found it, and how.",
-                      "gun tests of 1998, table 3", &CitedLimit::source) |
-          scene::required(),
-  };
-  return keys;
-}
-
-void read_cited_limits(const toml::table& root, StudyFile& study) {
-  read_rows(root, "cited_limit", cited_limit_keys(), study.file, study, study.study.cited_limits);
-}
-
-std::vector<LimitComparison> compare_with_limits(const StudyFile& study,
-                                                 const std::vector<const CriticalGap*>& critical) {
-  return of_each(study.study.cited_limits,
-                 [&](const CitedLimit& limit) { return compare(study, critical, limit); });
 }
 
 }  // namespace launchsafe::study

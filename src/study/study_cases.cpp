@@ -13,15 +13,10 @@ scene::Expected<SceneFile> with_all(const SceneFile& scene, const std::vector<Ch
   return scene::with_keys(scene, {changes.begin(), changes.end()});
 }
 
-/// The change that a fault of all together is about: of the key that it names, else the first that the scene
-/// could not have alone, else the first.
-const Change& change_at_fault(const scene::SceneFile& scene, const std::vector<Change>& changes,
-                              const scene::InputError& error) {
+/// The change that a fault of all together is about: of the key that it names, else the first.
+const Change& change_at_fault(const std::vector<Change>& changes, const scene::InputError& error) {
   const auto named = std::ranges::find(changes, error.key, &Change::name);
-  if (named != changes.end()) return *named;
-  const auto alone =
-      std::ranges::find_if(changes, [&](const Change& change) { return !with_all(scene, {change}); });
-  return alone != changes.end() ? *alone : changes.front();
+  return named != changes.end() ? *named : changes.front();
 }
 
 /// Whether other values of a key make another launch, and not only another computation of the same one.
@@ -152,7 +147,7 @@ scene::Expected<scene::SceneFile> with_changes(const scene::SceneFile& scene,
   auto changed = with_all(scene, changes);
   if (changed) return changed;
   scene::InputError error = changed.error();
-  const Change& change = change_at_fault(scene, changes, error);
+  const Change& change = change_at_fault(changes, error);
   if (error.key != change.name) {
     error.found = fmt::format("{}, with which {} is {}", text_of(scene, change), error.key, error.found);
     error.allowed = fmt::format("values with which {} is {}", error.key, error.allowed);

@@ -134,7 +134,6 @@ CaseStatements statements_of(const Study& study, const StudyCase& input) {
   if (const double over = scene.load.smoothing; over > 0.0)
     all.extrapolated.push_back("load smoothed over " + scene::format_quantity(over, scene::Dimension::time));
   all.calibrated_gap = study.calibration.evidence.largest_gap;
-  all.demonstration = study.demonstration;
   return all;
 }
 
@@ -156,8 +155,7 @@ Judgement judge(const GapVerdict& row, const CriticalGap& critical) {
   const CaseEvidence& of_case = *row.of_case;
   if (!of_case.completed()) return indeterminate(ReasonCode::failed, critical);
   if (!std::isfinite(row.maximum.temperature)) return indeterminate(ReasonCode::no_temperature, critical);
-  if (!of_case.validity_warnings.empty() || std::isfinite(row.when_over))
-    return indeterminate(ReasonCode::validity_warning, critical);
+  if (!of_case.validity_warnings.empty()) return indeterminate(ReasonCode::validity_warning, critical);
   if (row.ignition) return {Verdict::unsafe, ReasonCode::ignition};
   if (of_case.input.has_unaccepted()) return indeterminate(ReasonCode::unaccepted, critical);
   // Written so that NaN is never safe.
@@ -173,53 +171,17 @@ namespace {
 
 using keys::ActsOn;
 
-/// A curve by its regressors at a gap in cm.
-using Regressors = std::function<std::vector<double>(double)>;
-
-double root_mean_square(const std::vector<double>& values) {
-  return std::sqrt(math::sum_of_squares(values) / static_cast<double>(values.size()));
-}
-
-Line line_through(double intercept, double slope, const std::vector<double>& gaps_cm,
+Line line_through(const char* name, double intercept, double slope, const std::vector<double>& gaps_cm,
                   const std::vector<double>& temperatures) {
-  Line line{intercept, slope, {}, 0};
+  double squares = 0.0;
   for (std::size_t i = 0; i < gaps_cm.size(); ++i)
-    line.residuals.push_back(temperatures[i] - (intercept + slope * gaps_cm[i]));
-  line.root_mean_square = root_mean_square(line.residuals);
+    squares += std::pow(temperatures[i] - (intercept + slope * gaps_cm[i]), 2);
+  Line line;
+  line.name = name;
+  line.intercept = intercept;
+  line.slope = slope;
+  line.root_mean_square = std::sqrt(squares / static_cast<double>(gaps_cm.size()));
   return line;
-}
-
-std::vector<double> straight(double gap_cm) { return math::polynomial_row(gap_cm, 1); }
-
-/// K, each row less what the others predict for it; NaN where they are too few.
-std::vector<double> left_out_errors(const math::LeastSquares& fit, const Regressors& regressors,
-                                    const std::vector<double>& gaps_cm) {
-  std::vector<double> errors(gaps_cm.size(), not_a_number);
-  for (std::size_t i = 0; fit.degrees_of_freedom > 0 && i < gaps_cm.size(); ++i)
-    errors[i] = fit.residuals[i] / (1.0 - fit.leverage(regressors(gaps_cm[i])));
-  return errors;
-}
-
-double corrected_akaike(double misfit, double rows, double coefficients) {
-  const double unknowns = coefficients + 1, spare = rows - unknowns - 1;
-  return spare > 0 ? rows * std::log(misfit * misfit) + 2 * unknowns + 2 * unknowns * (unknowns + 1) / spare
-                   : not_a_number;
-}
-
-/// Nothing where the regressors depend on each other, or there are fewer rows than coefficients.
-std::optional<FittedCurve> fit_curve(const char* name, const Regressors& regressors,
-                                     const std::vector<double>& gaps_cm,
-                                     const std::vector<double>& temperatures) {
-  const auto fit = math::least_squares(of_each(gaps_cm, regressors), temperatures);
-  if (!fit) return std::nullopt;
-  FittedCurve curve{name, static_cast<int>(fit->coefficients.size())};
-  curve.left_out = root_mean_square(left_out_errors(*fit, regressors, gaps_cm));
-  // Of a curve with as many coefficients as rows what remains is round-off.
-  if (fit->degrees_of_freedom > 0) curve.root_mean_square = root_mean_square(fit->residuals);
-  curve.corrected_akaike =
-      corrected_akaike(root_mean_square(fit->residuals), static_cast<double>(gaps_cm.size()),
-                       static_cast<double>(curve.coefficients));
-  return curve;
 }
 
 /// Each once.
@@ -231,53 +193,29 @@ std::vector<std::string> keys_of(const std::vector<scene::Implausible>& to_be_ac
   for (const scene::Implausible& each : to_be_accepted) {
     add(each.key);
     std::ranges::for_each(each.stands_for, add);
-    // Any of the three may be the one that is wrong.
-    if (each.key == "gap.gas_law")
-      for (const char* key : {"gap.air_temperature", "gap.air_pressure", "gap.air_density"}) add(key);
   }
   return keys;
 }
 
 }  // namespace
 
-std::optional<GapFit> fit_gaps(const std::vector<double>& gaps, const std::vector<double>& temperatures,
-                               const materials::KineticsParameters& kinetics,
-                               const ReferenceLine& published) {
+std::vector<Line> fit_gaps(const std::vector<double>& gaps, const std::vector<double>& temperatures) {
   const auto gaps_cm = of_each(gaps, [](double gap) { return 100.0 * gap; });
   const auto fitted = math::fit_line(gaps_cm, temperatures);
-  if (!fitted) return std::nullopt;
-  GapFit fit;
-  fit.gaps = gaps;
-  fit.temperatures = temperatures;
-  fit.least_squares = *fitted;
+  if (!fitted) return {};
   const double slope = fitted->coefficients[1];
-  fit.ordinary = line_through(fitted->coefficients[0], slope, gaps_cm, temperatures);
-  for (std::size_t i = 0; i < gaps.size(); ++i) {
-    if (gaps[i] == 0.0) fit.mixed = line_through(temperatures[i], slope, gaps_cm, temperatures);
+  std::vector<Line> lines{
+      line_through("least squares", fitted->coefficients[0], slope, gaps_cm, temperatures)};
+  if (fitted->degrees_of_freedom > 0) {
+    // The diagonal of (X^T X)^-1, of two coefficients.
+    lines[0].intercept_error = fitted->residual_deviation * std::sqrt(fitted->inverse_normal[0]);
+    lines[0].slope_error = fitted->residual_deviation * std::sqrt(fitted->inverse_normal[3]);
   }
-  if (published.given())
-    fit.published = line_through(published.intercept, published.slope, gaps_cm, temperatures);
-  fit.left_out = left_out_errors(*fitted, straight, gaps_cm);
-  if (fitted->degrees_of_freedom < 1) return fit;
-  const double ignition = kinetics.ignition_temperature;
-  if (slope > 0.0) {
-    const double gap_cm = (ignition - fitted->coefficients[0]) / slope;
-    fit.reaches_ignition = 0.01 * gap_cm;
-    fit.reaches_ignition_half_width = 0.01 * fitted->prediction_half_width(straight(gap_cm), 0.95) / slope;
-  }
-  const std::pair<const char*, Regressors> curves[] = {
-      {"straight line", straight},
-      {"parabola", [](double at) { return math::polynomial_row(at, 2); }},
-      // Relative to the heat of reaction at ignition.
-      {"line and Arrhenius term", [&](double at) {
-         std::vector<double> row = straight(at);
-         row.push_back(std::exp(kinetics.activation_temperature * (1.0 / ignition - 1.0 / fitted->at(row))));
-         return row;
-       }}};
-  for (const auto& [name, regressors] : curves)
-    if (auto curve = fit_curve(name, regressors, gaps_cm, temperatures))
-      fit.curves.push_back(std::move(*curve));
-  return fit;
+  if (const auto zero = std::ranges::find(gaps, 0.0); zero != gaps.end())
+    lines.push_back(line_through("its slope through the zero-gap row (the published form)",
+                                 temperatures[static_cast<std::size_t>(zero - gaps.begin())], slope, gaps_cm,
+                                 temperatures));
+  return lines;
 }
 
 std::vector<std::string> skin_keys(const std::vector<scene::Implausible>& to_be_accepted) {

@@ -165,10 +165,6 @@ const std::vector<double>* friction_of(const SkinModel& model, const trace::Bott
   return closure < trace::traced_closures ? &trace.friction[closure] : nullptr;
 }
 
-bool from_chamber(const SkinModel& model) {
-  return model.surface.air_pressure == scene::AirPressure::chamber;
-}
-
 /// Share of Arrhenius heat in all that heats a solid at temperature T, 0 to 1. `outside` in K/s.
 double chemical_share(const SkinModel& model, double temperature, double outside) {
   const double chemical = materials::arrhenius_heating(model.kinetics, model.specific_heat, temperature);
@@ -281,8 +277,8 @@ LinearAir linear_air(const materials::AirParameters& air, const IntervalPressure
 Intervals::Intervals(SkinModel model, const trace::BottomTrace& trace, double gap)
     : model_(std::move(model)),
       trace_(trace),
-      pressure_(from_chamber(model_) ? trace.chamber_pressure : trace.bottom_pressure),
-      mean_(from_chamber(model_) ? trace.mean_chamber_pressure : trace.mean_bottom_pressure),
+      pressure_(trace.bottom_pressure),
+      mean_(trace.mean_bottom_pressure),
       friction_(friction_of(model_, trace)),
       exchange_rate_(heat_capacity_ratio(model_, gap) / model_.surface.exchange_time) {}
 

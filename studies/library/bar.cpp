@@ -24,7 +24,6 @@ scene::Scene bar_scene(const LinearElastic& glass) {
   scene::Scene scene;
   scene.materials.push_back({"glass", glass});
   scene.bodies = {{"bar", "glass", 0.0, length, 0.0, radius}};  // x from 0 to L, r from 0 to the radius
-  scene.frame = scene::Frame::lab;                              // not the one that moves along with a shell
   scene.barrel = scene::Barrel::none;                           // sides are free
   scene.numerics.cell_size = cell_size;
   // The pressure acts on the face at the largest x: it rises from `base` to `peak` and falls again.

@@ -1,7 +1,7 @@
 // Thick-walled cylinder under internal pressure.
 //
-// A ring with free ends is loaded in its bore and comes to rest under damping. The program prints radial and
-// hoop stress and the radial displacement over the wall, computed and after Lame, as CSV.
+// A short cylinder with free ends is loaded in its bore and comes to rest under damping. The program prints
+// radial and hoop stress and the radial displacement over the wall, computed and after Lame, as CSV.
 #include "launchsafe/mpm/simulation.hpp"
 
 #include <cmath>
@@ -15,7 +15,7 @@ using materials::LinearElastic;
 constexpr double bore = 0.05, outside = 0.1;  // radii, m
 constexpr int cells_in_wall = 20;
 constexpr double cell_size = (outside - bore) / cells_in_wall;  // m
-constexpr double ring_length = 8.0 * cell_size;                 // m
+constexpr double cylinder_length = 8.0 * cell_size;             // m
 constexpr double bore_pressure = 1e6;  // Pa; strains of 1e-5, as Lame's solution is linear
 
 double young_modulus(const LinearElastic& m) { return 9.0 * m.bulk * m.shear / (3.0 * m.bulk + m.shear); }
@@ -34,15 +34,14 @@ Wall closed_form(const LinearElastic& material, double r) {
   return {mean - varying, mean + varying, r * hoop_strain};
 }
 
-scene::Scene ring_scene(const LinearElastic& steel) {
+scene::Scene cylinder_scene(const LinearElastic& steel) {
   scene::Scene scene;
-  scene.materials.push_back({"ring steel", steel});
-  scene.bodies = {{"ring", "ring steel", 0.0, ring_length, bore, outside}};
-  scene.frame = scene::Frame::lab;
+  scene.materials.push_back({"cylinder steel", steel});
+  scene.bodies = {{"cylinder", "cylinder steel", 0.0, cylinder_length, bore, outside}};
   scene.barrel = scene::Barrel::none;       // the outer face is free
   scene.load.base = scene.load.peak = 0.0;  // and so are the ends
   scene.numerics.cell_size = cell_size;
-  // The ring breathes at about sqrt(E/rho) over its mean radius (rad/s). Velocities decay as
+  // The cylinder breathes at about sqrt(E/rho) over its mean radius (rad/s). Velocities decay as
   // exp(-t/damping_time); 1/(2 frequency) is critical for that motion.
   const double frequency = std::sqrt(young_modulus(steel) / steel.density) / (0.5 * (bore + outside));
   scene.numerics.damping_time = 0.5 / frequency;
@@ -63,7 +62,7 @@ void load_bore(mpm::Simulation& simulation) {
 
 int main() {
   const LinearElastic steel{.density = 7830, .bulk = 166.4e9, .shear = 80e9};  // kg/m3, Pa, Pa
-  const scene::Scene scene = ring_scene(steel);
+  const scene::Scene scene = cylinder_scene(steel);
   mpm::Simulation simulation(scene);
   const double end_time = 60.0 * scene.numerics.damping_time;  // s; what is left of the motion is exp(-30)
   while (simulation.time() < end_time) {
@@ -71,8 +70,8 @@ int main() {
     simulation.step(simulation.stable_time_step());
   }
 
-  const mpm::Body<LinearElastic>& ring = simulation.bodies_of<LinearElastic>().front();
-  const mpm::ParticleFields& particles = ring.particles;
+  const mpm::Body<LinearElastic>& cylinder = simulation.bodies_of<LinearElastic>().front();
+  const mpm::ParticleFields& particles = cylinder.particles;
   const int middle = particles.lattice.columns() / 2;  // the column half way between the ends
   std::puts(
       "radius_m,radial_Pa,radial_closed_form_Pa,hoop_Pa,hoop_closed_form_Pa,displacement_m,"
@@ -80,7 +79,7 @@ int main() {
   for (int row = 0; row < particles.lattice.rows(); ++row) {
     const std::size_t slot = particles.lattice.slot(middle, row);
     const double radius = particles.lattice.r_of(row);  // at rest
-    const auto deviator = ring.deviator(slot);
+    const auto deviator = cylinder.deviator(slot);
     const Wall exact = closed_form(steel, radius);
     std::printf("%.6e,%.6e,%.6e,%.6e,%.6e,%.6e,%.6e\n", radius, deviator.rr - particles.pressure[slot],
                 exact.radial, deviator.tt() - particles.pressure[slot], exact.hoop,

@@ -24,14 +24,6 @@ TEST_F(Descriptors, ResultsThatStdoutDoesNotTakeAreExitCode70) {
   }
 }
 
-TEST_F(Descriptors, AFaultyInputNeedsNoStdout) {
-  for (const std::string redirection : {" >&-", " >/dev/full"}) {
-    const Outcome outcome = run_redirected("run absent.toml" + redirection);
-    EXPECT_EQ(outcome.code, 2) << outcome.err;
-    EXPECT_EQ(outcome.lines_of_error(), 1) << outcome.err;
-  }
-}
-
 TEST_F(Descriptors, AReaderThatHasGoneIsNoLoss) {
   const Outcome outcome =
       run_in_shell("{ \"" LAUNCHSAFE_PROGRAM "\" explain --keys; echo $? > code; } | true");

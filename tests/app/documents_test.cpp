@@ -102,15 +102,6 @@ TEST(Documents, EveryLinkLeadsSomewhere) { expect_no_broken_links(source); }
 
 using PagesInAFolder = launchsafe::testing::TemporaryFolder;
 
-TEST_F(PagesInAFolder, TellTheirBrokenLinks) {
-  std::ofstream(folder() / "a.md")
-      << "# Of *a* page\n## Twice\n## Twice\n[a](b.md) [b](#of-a-page) [c](c.md#what)\n"
-      << "![d](a.md#twice-1) [e](#twice-2)\n```\n# Code\n[f](g.md)\n```\n[h](#code)\n"
-      << "[i](https://example.org/none)\n";
-  std::ofstream(folder() / "c.md") << "## What?\n";
-  EXPECT_EQ(broken_links(folder() / "a.md"), (std::vector<std::string>{"b.md", "#twice-2", "#code"}));
-}
-
 TEST_F(PagesInAFolder, AreLinkedAfterAnInstallationToo) {
   const std::string install = std::string("'") + LAUNCHSAFE_CMAKE + "' --install '" + LAUNCHSAFE_BUILD_DIR +
                               "' --component program --prefix '" + folder().string() + "' > /dev/null";
@@ -175,15 +166,6 @@ TEST(Documents, NoReportIsOfADirtyTree) {
     EXPECT_EQ(page_of(entry.path()).find("-dirty"), std::string::npos) << entry.path();
   }
   EXPECT_GT(texts, 50u);
-}
-
-TEST(Documents, TheReadmeFitsOnThreeScreens) {
-  std::istringstream page(page_of(source / "README.md"));
-  std::size_t lines = 0;
-  for (std::string line; std::getline(page, line); ++lines)
-    EXPECT_TRUE(line.size() <= 120 || line.starts_with("    "))
-        << line;  // of what the program prints as well
-  EXPECT_LE(lines, 120U);
 }
 
 }  // namespace

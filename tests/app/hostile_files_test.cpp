@@ -56,29 +56,22 @@ constexpr std::size_t deep = 100'000;
 
 INSTANTIATE_TEST_SUITE_P(
     Files, HostileFileProgram,
-    ::testing::Values(
-        HostileFile{
-            "NestedArrays", "a = " + repeated("[", deep) + repeated("]", deep), {"nested value depth of 16"}},
-        HostileFile{"DeepestThatIsRead",
-                    "[" + repeated("a.", 15) + "a]\nb = " + repeated("{" + repeated("a.", 15) + "a = ", 14) +
-                        "1" + repeated("}", 14) + "\n",
-                    {"a.a"}},
-        HostileFile{
-            "HugeKey", std::string(1'000'000, 'k') + " = 1\n", {"input.toml:1:", "an unknown key", " ... "}},
-        HostileFile{"HugeKind", "kind = \"" + std::string(1'000'000, 'k') + "\"\n", {"found"}},
-        HostileFile{"Binary",
-                    std::string("\x7f"
-                                "ELF\0\0\1",
-                                7),
-                    {"NUL", "UTF-8"}},
-        HostileFile{"TooLarge", "#" + std::string(std::size_t{16} << 20, ' '), {"16 MiB"}}),
+    ::testing::Values(HostileFile{"NestedArrays",
+                                  "a = " + repeated("[", deep) + repeated("]", deep),
+                                  {"nested value depth of 16"}},
+                      HostileFile{"Binary",
+                                  std::string("\x7f"
+                                              "ELF\0\0\1",
+                                              7),
+                                  {"NUL", "UTF-8"}},
+                      HostileFile{"TooLarge", "#" + std::string(std::size_t{16} << 20, ' '), {"16 MiB"}}),
     [](const auto& test) { return test.param.name; });
 
 TEST_F(HostileFileProgram, WhatIsNoRegularFileIsRefusedAtOnce) {
   ASSERT_EQ(::mkfifo((folder() / "pipe").c_str(), 0600), 0);
   std::filesystem::create_directory(folder() / "folder");
-  for (const auto& [file, kind] : {std::pair<std::string, std::string>{"pipe", "a pipe"},
-                                   {"/dev/zero", "a device"},
+  for (const auto& [file, kind] : {std::pair<std::string, std::string>{"pipe", "a pipe or a device"},
+                                   {"/dev/zero", "a pipe or a device"},
                                    {"folder", "a folder"}}) {
     expect_refused({"run", file, "-o", "out"}, {kind});
     expect_refused({"study", file, "-o", "out"}, {kind});

@@ -14,6 +14,7 @@
 #include <filesystem>
 #include <fstream>
 #include <functional>
+#include <iterator>
 #include <sstream>
 #include <string>
 #include <thread>
@@ -114,6 +115,12 @@ inline std::string with(std::string text, const std::string& from, const std::st
   const std::size_t at = text.find(from);
   EXPECT_NE(at, std::string::npos) << from;
   return at == std::string::npos ? text : text.replace(at, from.size(), to);
+}
+
+/// A file of studies/.
+inline std::string shipped(const std::string& name) {
+  std::ifstream file(LAUNCHSAFE_SOURCE_DIR "/studies/" + name);
+  return {std::istreambuf_iterator<char>(file), {}};
 }
 
 /// The same shell under five times the pressure and ten times as long, over twelve calibres of travel: under

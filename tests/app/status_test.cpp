@@ -27,13 +27,6 @@ TEST_F(Status, SaysWhatAFinishedStudyDid) {
   EXPECT_EQ(status["runs_stored"], 12);
 }
 
-TEST_F(Status, CountsWhatIsStoredAsDone) {
-  ASSERT_EQ(run({"study", "study.toml", "-o", "out"}).code, 0);
-  std::filesystem::remove(folder() / "out/report.md");
-  ASSERT_EQ(run({"study", "study.toml", "-o", "out"}).code, 0);
-  EXPECT_EQ(status_of({"out"}, 0)["cases_done"], 24);
-}
-
 TEST_F(Status, IsReadBesideARunningStudyAndSaysWhatAnInterruptionLeft) {
   write("shell.toml", long_scene());
   start({"study", "study.toml", "-o", "out", "--jobs", "1"});
@@ -86,30 +79,6 @@ TEST_F(Status, KnowsShardsInOneFolderAndInSeveralAndTheirMerge) {
   const auto merged = status_of({"out"}, 0);
   EXPECT_EQ(merged["writers"].size(), 1u);
   EXPECT_EQ(merged["cases_done"], 24);
-}
-
-TEST_F(Status, CountsFailures) {
-  const Outcome outcome = run({"study", "study.toml", "-o", "out", "--memory", "1kB"});
-  EXPECT_EQ(outcome.code, 3) << outcome.err;
-  const auto status = status_of({"out"}, 3);
-  EXPECT_EQ(status["cases_failed"], 24);
-}
-
-TEST_F(Status, NamesAFolderNearOneThatHasNone) {
-  ASSERT_EQ(run({"study", "study.toml", "-o", "out", "--shard", "1/6"}).code, 0);
-  for (const std::string wrong : {".", "out/cases", "ouut"}) {
-    const Outcome outcome = run({"status", wrong});
-    EXPECT_EQ(outcome.code, 2);
-    EXPECT_EQ(outcome.lines_of_error(), 1) << outcome.err;
-    EXPECT_TRUE(outcome.says("did you mean out?") || outcome.says("did you mean ./out?")) << outcome.err;
-  }
-}
-
-TEST_F(Status, AStudyRefusesATimeThatIsNone) {
-  const Outcome outcome = run({"study", "study.toml", "-o", "out", "--until", "6 pm"});
-  EXPECT_EQ(outcome.code, 2);
-  EXPECT_TRUE(outcome.says("allowed: a time of the day such as 06:00")) << outcome.err;
-  EXPECT_FALSE(exists("out"));
 }
 
 }  // namespace

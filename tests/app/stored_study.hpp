@@ -47,8 +47,7 @@ inline const std::string sensitivity_study = R"(kind = "sensitivity"
 scene = "shell.toml"
 early_time = "0.03 ms"
 gaps = "0.01 cm"
-samples = 2
-resamples = 100
+samples = 8
 
 [[vary]]
 key = "peak_pressure"
@@ -97,7 +96,6 @@ scene = "shell.toml"
 early_time = "0.03 ms"
 gaps = "0, 0.01 cm"
 reference_cell_sizes = "1.25, 2.5, 5 mm"
-times = "0.03 ms"
 
 [[settings]]
 numerics.cell_size = "5 mm"
@@ -134,7 +132,8 @@ class StoredStudy : public Program {
     std::map<std::string, std::string> files;
     for (const auto& entry : std::filesystem::recursive_directory_iterator(folder() / name)) {
       const std::string file = std::filesystem::relative(entry.path(), folder() / name).string();
-      const bool own = file == "manifest.json" || store::is_store_name(file) || file.starts_with("earlier-");
+      const bool own = file == "manifest.json" || file.ends_with(".db") || file.starts_with("status") ||
+                       file.ends_with("-journal") || file.starts_with("earlier-");
       if (entry.is_regular_file() && !own) files[file] = read(name + "/" + file);
     }
     return files;
@@ -143,7 +142,7 @@ class StoredStudy : public Program {
   /// Compares name by name, so that a failure does not print whole files.
   void expect_same_results(const std::string& one, const std::string& other) const {
     const auto expected = results_in(one), found = results_in(other);
-    EXPECT_GT(expected.size(), 5u);
+    EXPECT_GT(expected.size(), 4u);
     std::set<std::string> names;
     for (const auto& [name, bytes] : expected) names.insert(name);
     for (const auto& [name, bytes] : found) names.insert(name);

@@ -41,20 +41,8 @@ TEST_F(StudyProgram, ExplainCountsItsRuns) {
   EXPECT_EQ(plan["kind"], "critical-gap");
   EXPECT_EQ(plan["mechanical_runs"], 1);
   EXPECT_EQ(plan["coupled_runs_at_most"], 2);
-  EXPECT_GT(plan["predicted_time_of_coupled_runs_s"], 0.0);
-  EXPECT_GT(plan["predicted_time_s"], plan["predicted_time_of_coupled_runs_s"]);
+  EXPECT_GT(plan["predicted_time_s"], 0.0);
   EXPECT_EQ(plan["gaps"], 3);
-  EXPECT_NE(run({"explain", "study.toml"}).out.find("mechanical runs       1"), std::string::npos);
-}
-
-TEST_F(StudyProgram, IsInterruptedAndNamesTheCommandToGoOn) {
-  write("shell.toml", long_scene());
-  start({"study", "study.toml", "-o", "out"});
-  wait_for_file("out/manifest.json");
-  send(SIGINT);
-  const Outcome outcome = wait();
-  EXPECT_EQ(outcome.code, 75) << outcome.err;
-  EXPECT_TRUE(outcome.says("launchsafe study study.toml -o out")) << outcome.err;
 }
 
 }  // namespace

@@ -25,7 +25,6 @@ TEST_F(ChangedStudy, IsRefusedAndToldOfUpdate) {
   EXPECT_EQ(refused.code, 2);
   EXPECT_EQ(refused.lines_of_error(), 1) << refused.err;
   EXPECT_TRUE(refused.says("--update")) << refused.err;
-  EXPECT_TRUE(refused.says("(load.peak = 255 MPa here, 250 MPa there)")) << refused.err;
   EXPECT_TRUE(results_in("out") == before);
   EXPECT_FALSE(exists("out/earlier-1"));
 }
@@ -40,18 +39,6 @@ TEST_F(ChangedStudy, OfAFileThatItRestsOnIsAnotherStudy) {
   const Outcome refused = run({"study", "study.toml", "-o", "out"});
   EXPECT_EQ(refused.code, 2) << refused.err;
   EXPECT_TRUE(refused.says("--update")) << refused.err;
-  EXPECT_TRUE(refused.says("another file that it rests on")) << refused.err;
-}
-
-TEST_F(ChangedStudy, IsToldWithItsFirstDifferenceAndHowManyMoreThereAre) {
-  write("study.toml", with(with(sweep_study, "0, 0.01, 0.02 cm", "0, 0.01 cm"), "\"1 cm\"", "\"0.9 cm\""));
-  const Outcome refused = run({"study", "study.toml", "-o", "out"});
-  EXPECT_TRUE(refused.says("gaps = 0, 0.01 cm here, 0, 0.01, 0.02 cm there and 1 more")) << refused.err;
-  write("study.toml", sweep_study);
-  write("shell.toml", with(far_scene(), "r = \"1 cm\"", "r = \"1.2 cm\""));
-  const Outcome moved = run({"study", "study.toml", "-o", "out"});
-  EXPECT_TRUE(moved.says("(G1 = { x = 0.039 m, r = 0.012 m } here, { x = 0.039 m, r = 0.01 m } there)"))
-      << moved.err;
 }
 
 TEST_F(ChangedStudy, WithOtherThermalInputNeedsNoRun) {
@@ -71,7 +58,7 @@ TEST_F(ChangedStudy, WithOneMoreValueRunsWhatIsNew) {
   write("study.toml", with(sweep_study, "270, 280 MPa", "270, 280, 290 MPa"));
   const Outcome updated = update();
   EXPECT_EQ(updated.code, 0) << updated.err;
-  EXPECT_TRUE(updated.says("re-used 12 mechanical runs, ran 3 ")) << updated.err;
+  EXPECT_TRUE(updated.says("re-used 12 mechanical runs, ran 3;")) << updated.err;
   write("study.toml", with(sweep_study, "270, 280 MPa", "270 MPa"));
   const Outcome fewer = update();
   EXPECT_TRUE(fewer.says("re-used 9 mechanical runs, ran 0")) << fewer.err;
@@ -86,34 +73,12 @@ TEST_F(ChangedStudy, UpdateOfTheSameStudyMovesNothing) {
   EXPECT_FALSE(exists("out/earlier-1"));
 }
 
-TEST_F(ChangedStudy, TellsBeforeWhyARunRuns) {
-  write("shell.toml", with(far_scene(), "peak_time = \"0.35 ms\"", "peak_time = \"0.36 ms\""));
-  const auto rows = [this] {
-    return nlohmann::json::parse(
-        run({"study", "study.toml", "-o", "out", "--dry-run", "--json"}).out)["runs"];
-  };
-  for (const auto& row : rows()) {
-    const std::string state = row["state"];
-    EXPECT_TRUE(state.starts_with("to run: ") && state.find("peak_time") != std::string::npos) << state;
-  }
-  ASSERT_EQ(update().code, 0);
-  for (const auto& row : rows()) EXPECT_EQ(row["state"], "stored");
-}
-
 class ForeignFolder : public StoredStudy {};
 
 TEST_F(ForeignFolder, ResultsAreKeptApartFromTheStudysFile) {
   const Outcome refused = run({"study", "study.toml", "-o", "."});
   EXPECT_EQ(refused.code, 2);
-  EXPECT_TRUE(refused.says(". is the folder of the study's file")) << refused.err;
-  EXPECT_TRUE(refused.says("did you mean -o ./results?")) << refused.err;
   EXPECT_FALSE(exists("cases"));
-  // Where an earlier version wrote them they stay in use.
-  ASSERT_EQ(run({"study", "study.toml", "-o", "out"}).code, 0);
-  std::filesystem::copy(folder() / "study.toml", folder() / "out");
-  std::filesystem::copy(folder() / "shell.toml", folder() / "out");
-  const Outcome present = run({"study", "out/study.toml", "-o", "out"});
-  EXPECT_EQ(present.code, 0) << present.err;
 }
 
 TEST_F(ForeignFolder, FilesOfSomebodyElseAreNotOverwritten) {

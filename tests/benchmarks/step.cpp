@@ -53,7 +53,7 @@ void over_the_charge(benchmark::State& state, Operation&& operation) {
   mpm::Grid grid = simulation.updated_lagrangian()->grid();
   const mpm::ParticleFields& p = simulation.bodies_of<materials::Charge>()[0].get().particles;
   const mpm::StencilContext context{grid, grid.origin_x, 0.5 * p.lattice.length_x(0),
-                                    0.5 * p.lattice.length_r(0), true};
+                                    0.5 * p.lattice.length_r(0)};
   for (auto _ : state)
     for (std::size_t slot = 0; slot < p.x.size(); slot += math::pack_width)
       operation(grid, mpm::stencil_of(context, math::Pack::load(&p.x[slot]), math::Pack::load(&p.r[slot])),

@@ -183,7 +183,6 @@ report::Plot plot_of(const std::vector<MeasuredSeries>& measured) {
       panel.y = {.label = "error [relative, or K where it says so]", .scale = report::Scale::logarithmic};
       panel.width = 760;
       panel.height = 400;
-      panel.named_in_place = true;
     } else {
       plot.panels.back().title += ", " + order;
     }

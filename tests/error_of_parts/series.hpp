@@ -37,7 +37,7 @@ struct ErrorSeries {
 std::vector<ErrorSeries> error_series();
 std::vector<ErrorSeries> skin_series();
 std::vector<ErrorSeries> solid_series();
-std::vector<ErrorSeries> mechanics_series();  ///< conduction, waves, free flight, shape functions
+std::vector<ErrorSeries> mechanics_series();  ///< conduction, waves, shape functions
 
 /// ln(error ratio)/ln(size ratio) of two settings' sizes and errors (>= 0); NaN where the finer error is of
 /// round-off, which does not depend on the method.

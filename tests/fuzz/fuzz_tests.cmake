@@ -37,10 +37,6 @@ add_test(NAME fuzz.configure
           "-DCMAKE_CXX_COMPILER_LAUNCHER=${CMAKE_CXX_COMPILER_LAUNCHER}"
   WORKING_DIRECTORY "${PROJECT_SOURCE_DIR}")
 add_test(NAME fuzz.build COMMAND "${CMAKE_COMMAND}" --build "${fuzz_dir}" --parallel 2 --target fuzzers)
-add_test(NAME fuzz.words
-  COMMAND sh "${CMAKE_CURRENT_SOURCE_DIR}/fuzz/words.sh" "$<TARGET_FILE:launchsafe>" "${fuzz_dir}")
-set_tests_properties(fuzz.words PROPERTIES
-  FIXTURES_SETUP fuzzers LABELS fuzz TIMEOUT 120)
 set_tests_properties(fuzz.configure PROPERTIES FIXTURES_SETUP fuzz_configuration LABELS fuzz TIMEOUT 120)
 set_tests_properties(fuzz.build PROPERTIES
   FIXTURES_REQUIRED fuzz_configuration FIXTURES_SETUP fuzzers LABELS fuzz PROCESSORS 2 TIMEOUT 1800)
@@ -48,20 +44,17 @@ set_tests_properties(fuzz.build PROPERTIES
 # Shipped files are seeds too, as far as -max_len goes.
 file(GLOB shipped CONFIGURE_DEPENDS "${PROJECT_SOURCE_DIR}/studies/*.toml")
 list(JOIN shipped "," shipped)
-set(seeds_scene "-seed_inputs=${fuzz_dir}/every_key.toml,${shipped}")
+set(seeds_scene "-seed_inputs=${shipped}")
 set(seeds_study "-seed_inputs=${shipped}")
 file(MAKE_DIRECTORY "${fuzz_dir}/failures")
 foreach(reader IN LISTS fuzzed_readers)
   set(found "${fuzz_dir}/found_${reader}")
   file(MAKE_DIRECTORY "${found}")
   set(longest 6000)
-  if(reader STREQUAL store)
-    set(longest 20000) # a results file with one answer
-  endif()
   # -timeout, s: a reader that takes so long on an input hangs. -rss_limit_mb: or holds all of it.
   add_test(NAME fuzz.${reader}
     COMMAND "${fuzz_dir}/tests/fuzz/fuzz_${reader}" -seed=1 -max_total_time=15 -timeout=10 -rss_limit_mb=2048 -max_len=${longest}
-            -print_final_stats=1 "-dict=${fuzz_dir}/words.dict"
+            -print_final_stats=1 "-dict=${CMAKE_CURRENT_SOURCE_DIR}/fuzz/keys.dict"
             "-artifact_prefix=${fuzz_dir}/failures/${reader}-" ${seeds_${reader}} "${found}"
             "${CMAKE_CURRENT_SOURCE_DIR}/fuzz/corpus/${reader}")
   set_tests_properties(fuzz.${reader} PROPERTIES FIXTURES_REQUIRED fuzzers LABELS fuzz TIMEOUT 180)

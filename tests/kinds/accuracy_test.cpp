@@ -16,7 +16,6 @@ using namespace launchsafe::study;
 const std::string accuracy_text =
     "kind = \"accuracy\"\nscene = \"scene_155mm.toml\"\ngaps = \"0, 0.02, 0.039 cm\"\n"
     "reference_cell_sizes = \"2.5, 0.625, 1.25 mm\"\nlargest_gap = \"0.2 cm\"\ntolerance = \"1e-6 cm\"\n"
-    "times = \"10, 18 ms\"\n"
     "settings = [ { \"numerics.cell_size\" = \"2.5, 5 mm\", \"numerics.inertial_scaling\" = [1, 16] },\n"
     "             { friction.closure = [\"inelastic\"] } ]\n" +
     constants_on_even_lattice + "station.width = \"1.3 cm\"\nstation.depth = \"1 cm\"\n";
@@ -82,35 +81,12 @@ TEST(Accuracy, MeasuresErrorsOfSettingsAgainstTheLimit) {
   const AccuracyRow& scaled = row_of(result, "cell_size 2.5 mm, inertial_scaling 16");
   EXPECT_NEAR(scaled.temperature_error[0], 4.0, 0.03);  // 2 K and log2(16)/2 K
   EXPECT_FALSE(scaled.baseline);
-  ASSERT_EQ(scaled.error_at_times.size(), 2u);
-  // Without reaction the error is the power law to round-off: 2 K of the mesh and log2(16)/2 K of the
-  // scaling.
-  EXPECT_NEAR(scaled.error_at_times[1], 4.0, 1e-6);
-  EXPECT_LT(scaled.pressure_error, 1e-12) << "the synthetic pressure does not know the mesh";
-}
-
-TEST(Accuracy, MarksTheSettingsThatNoCheaperOneBeats) {
-  std::vector<AccuracyRow> rows(5);
-  const double time[] = {1, 2, 3, 4, 0.5}, error[] = {4, 5, 2, 1, 9};
-  for (std::size_t i = 0; i < rows.size(); ++i) {
-    rows[i].setting.processor_time = time[i];
-    rows[i].setting.temperature_bound = error[i];
-    rows[i].largest_temperature_error = 5.0 - time[i];  // a distance decides nothing where there is a bound
-  }
-  rows[3].other_model = true;
-  mark_front(rows);
-  EXPECT_TRUE(rows[0].on_front);
-  EXPECT_FALSE(rows[1].on_front) << "the first is cheaper and less wrong";
-  EXPECT_TRUE(rows[2].on_front);
-  EXPECT_FALSE(rows[3].on_front) << "another model is no better computation";
-  EXPECT_TRUE(rows[4].on_front);
 }
 
 TEST(Accuracy, TellsAnotherModelFromAnError) {
   const VariantAccuracy result = result_of();
   const AccuracyRow& other = row_of(result, "closure inelastic");
   EXPECT_TRUE(other.other_model);
-  EXPECT_FALSE(other.on_front);
   for (const RecordedSetting& each : result.record.settings) EXPECT_NE(each.label, "closure inelastic");
   EXPECT_EQ(result.record.settings.size(), result.rows.size() - 1);
 }
@@ -139,7 +115,7 @@ TEST(Accuracy, AReferenceMeshThatFailsLeavesNoReference) {
     return mechanics;
   });
   EXPECT_FALSE(result.reference);
-  EXPECT_NE(result.no_reference.find("drifted"), std::string::npos);
+  EXPECT_FALSE(result.no_reference.empty());
   EXPECT_TRUE(result.any_indeterminate());
   EXPECT_TRUE(result.record.settings.empty());
 }
@@ -154,7 +130,6 @@ TEST(Accuracy, ASettingThatFailsIsARowWithoutNumbers) {
   const AccuracyRow& row = row_of(result, "cell_size 2.5 mm, inertial_scaling 16");
   EXPECT_FALSE(row.sound());
   EXPECT_TRUE(std::isnan(row.setting.temperature_bound));
-  EXPECT_FALSE(row.on_front);
   EXPECT_EQ(cheapest_within(result.record, 1e9)->label, "cell_size 5 mm, inertial_scaling 1");
 }
 
@@ -170,38 +145,7 @@ TEST(Accuracy, ASettingWithAValidityWarningIsShownWithItsErrorAndNotRecommended)
   EXPECT_TRUE(row.computed());
   EXPECT_FALSE(row.sound());
   EXPECT_NEAR(row.temperature_error[0], 4.0, 0.03);
-  EXPECT_FALSE(row.on_front);
   for (const RecordedSetting& each : result.record.settings) EXPECT_NE(each.label, row.setting.label);
-}
-
-TEST(Accuracy, VariantsAreWhatStudiesOfTheirOwnAre) {
-  // The variant alone, written as a study: the same numbers, and the same record to the last byte.
-  const std::string other = "title = \"other\"\ngaps = \"0.02 cm\"\n";
-  const std::string variants = accuracy_text +
-                               "[[variant]]\nname = \"own\"\n[[variant]]\nname = \"other\"\n" + other +
-                               "settings = [ { numerics.cell_size = \"5 mm\" } ]\n";
-  StudyOptions options = synthetic_options(2);
-  options.runners.mechanics = [](const scene::Scene& scene, const run::RunOptions&) {
-    return converging(scene);
-  };
-  const AccuracyResult result = run_accuracy(study_of(variants), options);
-  ASSERT_EQ(result.variants.size(), 2u);
-  for (const VariantAccuracy& variant : result.variants)
-    for (const AccuracyRow& row : variant.rows) EXPECT_TRUE(row.computed()) << row.answer.failure;
-  EXPECT_EQ(to_json_text(result.variants[0].record), to_json_text(result_of().record));
-  std::string alone = accuracy_text;
-  alone.replace(alone.find("gaps"), alone.find("reference_cell_sizes") - alone.find("gaps"), other);
-  const std::size_t settings = alone.find("settings");
-  alone.replace(settings, alone.find("]\n", alone.find("inelastic")) + 2 - settings,
-                "settings = [ { numerics.cell_size = \"5 mm\" } ]\n");
-  EXPECT_EQ(to_json_text(result.variants[1].record), to_json_text(result_of(converging, alone).record));
-}
-
-TEST(RelativeDifference, IsThatOfTheSquares) {
-  const PressureTrace one{{0, 1, 2}, {1, 1, 1}}, other{{0, 0.5, 1, 1.5, 2}, {1.1, 1.1, 1.1, 1.1, 1.1}};
-  EXPECT_NEAR(relative_difference(other, one), 0.1, 1e-12);
-  EXPECT_EQ(relative_difference(one, one), 0.0);
-  EXPECT_TRUE(std::isnan(relative_difference({}, one)));
 }
 
 }  // namespace

@@ -44,7 +44,7 @@ TEST(CriticalGapStudy, FindsTheGapAndConfirmsIt) {
   ASSERT_EQ(outcome.confirmations.size(), 2u);
   for (const Confirmation& each : outcome.confirmations) EXPECT_TRUE(each.agrees());
   EXPECT_EQ(outcome.confirmations[0].difference, 0.0);
-  EXPECT_EQ(result.timing.runs, 4u);  // the launch, the same without its exit, and two confirmations
+  EXPECT_EQ(result.timing.runs, 3u);  // the launch and two confirmations
   ASSERT_EQ(outcome.verdicts.size(), 5u);
   for (std::size_t i = 0; i < 4; ++i)
     EXPECT_EQ(outcome.verdicts[i].judgement.verdict, Verdict::safe) << reason_text(outcome.verdicts[i]);
@@ -53,38 +53,10 @@ TEST(CriticalGapStudy, FindsTheGapAndConfirmsIt) {
   EXPECT_EQ(outcome.verdicts[4].ignition->point, "S2");
   EXPECT_EQ(outcome.verdicts[0].maximum.point, "S2");
   // The point G1, which is hotter, is read beside it.
-  ASSERT_TRUE(outcome.fit.has_value());
-  EXPECT_EQ(outcome.fit->gaps.size(), 4u);
+  EXPECT_EQ(outcome.lines.size(), 2u);
   EXPECT_TRUE(outcome.completed());
   for (const Confirmation& each : outcome.confirmations) EXPECT_TRUE(each.completed);
   EXPECT_FALSE(result.any_indeterminate());
-}
-
-/// s, up to which runs of a study go on from its launch, of which the fraction of a cell that conducts is
-/// left out up to a bound.
-std::vector<double> same_until_of(double conduction_bound) {
-  std::vector<double> same_until;
-  StudyOptions options = synthetic_options();
-  options.runners.mechanics = [&](const scene::Scene& scene, const run::RunOptions& of_run) {
-    run::MechanicsResult result = synthetic_mechanics(scene);
-    if (of_run.checkpoints) result.checkpoints = std::make_shared<const run::Checkpoints>();
-    if (of_run.launch != nullptr) same_until.push_back(of_run.same_until);
-    return result;
-  };
-  run_critical_gap(study_of(critical_text + gap_keys + synthetic_constants +
-                            fmt::format("physics.conduction_bound = {}\n", conduction_bound)),
-                   options);
-  return same_until;
-}
-
-TEST(CriticalGapStudy, ALongerLaunchGoesOnFromTheCasesOwnWhereBothAreOneUntilItsExit) {
-  const scene::Scene own = study_of(critical_text + gap_keys + synthetic_constants).scene.scene;
-  const double short_share = scene::make_plan(own).conduction.value,
-               long_share = scene::make_plan(with_longer_launch(own).value()).conduction.value;
-  ASSERT_LT(short_share, long_share);
-  EXPECT_EQ(same_until_of(2.0 * long_share), std::vector{18e-3});
-  EXPECT_EQ(same_until_of(0.5 * short_share), std::vector{18e-3});
-  EXPECT_TRUE(same_until_of(0.5 * (short_share + long_share)).empty()) << "the longer one alone conducts";
 }
 
 TEST(CriticalGapStudy, TheResultDoesNotDependOnTheNumberOfThreads) {
@@ -128,12 +100,11 @@ TEST(CriticalGapStudy, AFailingCaseIsIndeterminateAndTheOthersGoOn) {
     EXPECT_EQ(broken.critical.kind, CriticalGapKind::indeterminate);
     EXPECT_TRUE(std::isnan(broken.critical.value));
     EXPECT_TRUE(broken.confirmations.empty());
-    EXPECT_FALSE(broken.fit.has_value());
+    EXPECT_TRUE(broken.lines.empty());
     ASSERT_EQ(broken.verdicts.size(), 5u);
     for (const GapVerdict& row : broken.verdicts) {
       EXPECT_EQ(row.judgement.verdict, Verdict::indeterminate);
-      EXPECT_NE(reason_text(row).find(throws ? "out of memory" : "energy drift: at 3 ms"), std::string::npos)
-          << reason_text(row);
+      EXPECT_EQ(row.judgement.code, ReasonCode::failed);
     }
     for (const std::size_t i : {0u, 2u}) {
       EXPECT_EQ(result.details[i].critical.kind, CriticalGapKind::value);
@@ -151,9 +122,6 @@ TEST(CriticalGapStudy, ARunWithSkinThatDisagreesMakesItIndeterminate) {
   EXPECT_EQ(outcome.critical.kind, CriticalGapKind::indeterminate);
   EXPECT_TRUE(std::isnan(outcome.critical.value));
   EXPECT_EQ(outcome.critical.reason.code, GapReasonCode::coupled_ignites);
-  EXPECT_NE(
-      text_of(outcome.critical.reason).find(" ignites, the traced temperatures do not (traced bracket "),
-      std::string::npos);
   EXPECT_EQ(outcome.verdicts[0].judgement.verdict, Verdict::indeterminate);
   EXPECT_EQ(outcome.verdicts[4].judgement.verdict, Verdict::unsafe);
 }
@@ -171,8 +139,6 @@ TEST(CriticalGapStudy, ARunWithSkinThatFailsMakesItIndeterminate) {
     const CriticalGapResult result =
         run_critical_gap(study_of(critical_text + gap_keys + synthetic_constants), options);
     EXPECT_EQ(result.details[0].critical.kind, CriticalGapKind::indeterminate);
-    EXPECT_NE(text_of(result.details[0].critical.reason).find(throws ? "broken" : "non-finite"),
-              std::string::npos);
     EXPECT_FALSE(result.details[0].confirmations[0].completed);
   }
 }

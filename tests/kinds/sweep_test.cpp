@@ -29,31 +29,6 @@ TEST(Sweep, IsTheSameWithAnyNumberOfJobs) {
             lines_of(run_critical_gap(study, counting.options(4))));
 }
 
-TEST(Sweep, AFailingCaseIsItsRowAndNoOther) {
-  const StudyFile study = sweep_of("0, 0.02 cm", {{"peak_pressure", "400, 496, 550, 600 MPa"}});
-  Counting counting;
-  counting.outcome = [](const scene::Scene& scene) {
-    if (scene.load.peak == 496e6) throw std::bad_alloc();
-    run::MechanicsResult result = synthetic_mechanics(scene);
-    if (scene.load.peak == 550e6) {
-      result.status = run::RunStatus::energy_drift;
-      result.reason = "at t = 1 ms";
-    }
-    return result;
-  };
-  const CriticalGapResult result = run_critical_gap(study, counting.options());
-  EXPECT_TRUE(any_failed(result.answers));
-  EXPECT_TRUE(result.answers[0].completed());
-  EXPECT_EQ(result.answers[1].failure, "the run failed: std::bad_alloc");
-  EXPECT_EQ(result.answers[2].failure, run::to_string(run::RunStatus::energy_drift) + ": at t = 1 ms");
-  EXPECT_TRUE(result.answers[3].completed());
-  for (const std::size_t failed : {1u, 2u}) {
-    EXPECT_EQ(result.answers[failed].critical.kind, CriticalGapKind::indeterminate);
-    for (const GapVerdict& row : result.answers[failed].verdicts)
-      EXPECT_EQ(row.judgement.verdict, Verdict::indeterminate);
-  }
-}
-
 TEST(Sweep, BracketsWithoutAChangeAreBoundsAndNoNumbers) {
   const StudyFile study =
       sweep_of("0, 0.01 cm", {{"kinetics.ignition_temperature", "400, 425, 700 K"}}, "0.02 cm");
@@ -139,6 +114,7 @@ TEST_F(StoredSweep, ComputesADamagedCaseAgain) {
   const auto fresh = lines_of(run(study, first));
   const auto damaged = case_files().front();
   std::filesystem::resize_file(damaged, std::filesystem::file_size(damaged) / 2);
+  std::filesystem::remove(folder() / "results/study.db");  // its answer would do without the file
   const CriticalGapResult again = run(study, second);
   EXPECT_EQ(second.runs(), 1);
   EXPECT_EQ(lines_of(again), fresh);
@@ -182,60 +158,23 @@ TEST_F(StoredSweep, TriesATimedOutCaseAgainOnlyUnderALongerLimit) {
   EXPECT_EQ(longer.runs(), 1);
 }
 
-TEST_F(StoredSweep, ShardsTogetherAreTheWhole) {
+TEST_F(StoredSweep, CountsWhatHasToRun) {
   const StudyFile study = two_by_two_by_two_of();
-  Counting whole, merged;
-  const auto expected = lines_of(run_critical_gap(study, whole.options()));
-  int runs = 0;
-  for (int index = 1; index <= 3; ++index) {
-    Counting counting;
-    const CriticalGapResult part = run(study, counting, {index, 3});
-    EXPECT_TRUE(any_failed(part.answers));  // the rows of the other shards
-    runs += counting.runs();
-  }
-  EXPECT_EQ(runs, 4);
-  EXPECT_EQ(lines_of(run(study, merged)), expected);
-  EXPECT_EQ(merged.runs(), 0);
-}
-
-TEST_F(StoredSweep, ForeseesWhatHasToRunAndWhy) {
-  const StudyFile study = two_by_two_by_two_of();
-  StudyOptions unstored;
-  unstored.jobs = 2;
-  const Forecast before = forecast_study(study, unstored, 1e6);
-  ASSERT_EQ(before.runs.size(), 4u);
-  EXPECT_EQ(before.learned_from, 0u);
+  const Estimate before = estimate_in_store(study);
+  EXPECT_EQ(before.cases, 8u);
+  EXPECT_EQ(before.runs, 4u);
+  EXPECT_EQ(before.stored, 0u);
+  EXPECT_GT(before.memory, 0.0);
   double sum = 0;
-  for (const ForecastRun& each : before.runs) {
-    EXPECT_EQ(each.cases, 2u);
-    EXPECT_FALSE(each.stored);
-    // Cracks this small do not divide the steps.
-    EXPECT_DOUBLE_EQ(each.time, static_cast<double>(each.particles * each.steps) / 1e6);
-    sum += each.time;
-  }
-  EXPECT_NEAR(before.time, sum / 2, 0.3 * sum);
+  for (const CaseRuns& each : case_runs(study, 1)) sum += each.runs.front().cost;
+  EXPECT_DOUBLE_EQ(before.updates, sum);
+  EXPECT_DOUBLE_EQ(before.time(1e6), sum / 1e6 / 2.0) << "two at a time";
 
   Counting counting;
   run(study, counting);
-  const Forecast after = foresee_in_store(study);
-  for (const ForecastRun& each : after.runs) EXPECT_TRUE(each.stored) << each.why;
-  EXPECT_EQ(after.time, 0.0);
-  EXPECT_EQ(after.learned_from, 4u);
-  // The synthetic runs say that they took 1 s each.
-  EXPECT_NEAR(after.update_rate, sum * 1e6 / 4.0, 1e-6 * sum * 1e6);
-}
-
-TEST_F(StoredSweep, NamesTheKeyThatMakesARunNecessary) {
-  Counting counting;
-  run(sweep_of("0 cm", {{"peak_pressure", "400, 496 MPa"}}), counting);
-  const StudyFile finer =
-      sweep_of("0 cm", {{"peak_pressure", "400, 496 MPa"}}, "0.2 cm", "numerics.cell_size = \"1 mm\"\n");
-  const Forecast forecast = foresee_in_store(finer);
-  ASSERT_EQ(forecast.runs.size(), 2u);
-  for (const ForecastRun& each : forecast.runs) {
-    EXPECT_FALSE(each.stored);
-    EXPECT_NE(each.why.find("cell_size"), std::string::npos) << each.why;
-  }
+  const Estimate after = estimate_in_store(study);
+  EXPECT_EQ(after.stored, 4u);
+  EXPECT_EQ(after.updates, 0.0);
 }
 
 }  // namespace

@@ -9,7 +9,6 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <random>
 
 namespace {
 
@@ -59,25 +58,6 @@ TEST(MieGruneisen, HeatOfALargeStepIsNotLost) {
   EXPECT_NEAR((warm.energy - cold.energy) / expected, 1.0, 1e-5);
 }
 
-TEST(MieGruneisen, StepIsTheOneWrittenWithItsDivisions) {
-  // e1 (1 + h G) = e0 + heat - h (p0 + p_H - G e_H), p1 = p_H + G (e1 - e_H), h = dv/2: to round-off of the
-  // modulus and of an energy of 1e4 J/kg.
-  const MieGruneisenParameters m;
-  std::mt19937_64 random(3);
-  std::uniform_real_distribution<double> share;
-  for (int k = 0; k < 10000; ++k) {
-    const double mu0 = -0.05 + 0.2 * share(random), mu1 = mu0 + 0.01 * (share(random) - 0.5);
-    const double energy0 = 1e4 * share(random), heat = 100.0 * share(random);
-    const double pressure0 = mie_gruneisen_pressure(m, mu0, energy0);
-    const auto state = mie_gruneisen_compress(m, mu0, pressure0, energy0, mu1, heat);
-    const double h = 0.5 * (mu0 - mu1) / (m.density * (1.0 + mu0) * (1.0 + mu1)), g = m.gruneisen * m.density;
-    const double cold = hugoniot_pressure(m, mu1) - g * hugoniot_energy(m, mu1);
-    const double energy = (energy0 + heat - h * (pressure0 + cold)) / (1.0 + h * g);
-    ASSERT_NEAR(state.energy, energy, 1e-14 * 1e4);
-    ASSERT_NEAR(state.pressure, cold + g * energy, 1e-15 * 1.66e11);
-  }
-}
-
 TEST(MieGruneisen, IsContinuousThroughRestDensityAtAnyEnergy) {
   // Between mu = -d and d the pressure may change by the slope's 2 d rho0 c0^2 and no more.
   const MieGruneisenParameters m;
@@ -92,53 +72,6 @@ TEST(MieGruneisen, IsContinuousThroughRestDensityAtAnyEnergy) {
           << energy << " " << d;
     }
   }
-}
-
-TEST(MieGruneisen, BulkModulusIsContinuousThroughRestDensity) {
-  const MieGruneisenParameters m;
-  for (const double energy : {0.0, 1e3, 1e5, 1e6}) {
-    const auto modulus = [&](double mu) {
-      return mie_gruneisen_bulk_modulus(m, mu, mie_gruneisen_pressure(m, mu, energy));
-    };
-    EXPECT_NEAR(modulus(-1e-9) / modulus(1e-9), 1.0, 1e-7) << energy;
-    // rho0 (c0^2 + Gamma^2 e), of the derivation in the header.
-    EXPECT_NEAR(modulus(0.0) / (7830.0 * (4610.0 * 4610.0 + 1.67 * 1.67 * energy)), 1.0, 1e-14) << energy;
-  }
-}
-
-TEST(MieGruneisen, StepsThroughRestDensityAreMonotoneBothWays) {
-  // Hot steel, e up to some thousand kelvin, unloads into tension and is compressed again in steps of 1e-5.
-  const MieGruneisenParameters m;
-  for (const double heat : {0.0, 1e4, 1e6}) {
-    double mu = 0.002;
-    MieGruneisenState<double> state{mie_gruneisen_pressure(m, mu, heat), heat};
-    for (const double change : {-1e-5, 1e-5}) {
-      for (int k = 0; k < 400; ++k) {
-        const double next = mu + change;
-        const auto after = mie_gruneisen_compress(m, mu, state.pressure, state.energy, next, 0.0);
-        const double stiffness = (after.pressure - state.pressure) / change;
-        EXPECT_NEAR(stiffness * (1.0 + mu) / mie_gruneisen_bulk_modulus(m, mu, state.pressure), 1.0, 1e-3)
-            << heat << " " << mu;
-        state = after;
-        mu = next;
-      }
-    }
-    EXPECT_NEAR(state.pressure, mie_gruneisen_pressure(m, 0.002, heat), 1e-3 * 0.002 * 1.66e11) << heat;
-  }
-}
-
-TEST(MieGruneisen, TensionIsLargestWhereTheHeaderSays) {
-  // p(w) = -rho0 c0^2 integral of exp(-Gamma (w - u))/u^2 du from 1 to w, whose least value was found by
-  // Simpson's rule: -36.56 GPa at w = 1.65.
-  const MieGruneisenParameters m;
-  const auto bears = [&](double w) {
-    return mie_gruneisen_compress(m, 0.0, 0.0, 0.0, 1.0 / w - 1.0, 0.0).pressure;
-  };
-  EXPECT_NEAR(bears(1.65) / 1e9, -36.56, 0.01);
-  EXPECT_LT(bears(1.65), bears(1.55));
-  EXPECT_LT(bears(1.65), bears(1.75));
-  EXPECT_EQ(mie_gruneisen_bulk_modulus(m, 1.0 / 1.7 - 1.0, bears(1.7)), 0.0);
-  EXPECT_GT(mie_gruneisen_bulk_modulus(m, 1.0 / 1.6 - 1.0, bears(1.6)), 0.0);
 }
 
 TEST(VirialGas, DiluteGasIsIdeal) {
@@ -172,25 +105,6 @@ TEST(ReactionDegree, WithoutATriggerOnlyTheBurntTemperatureCounts) {
   k.ignition_temperature = INFINITY;
   EXPECT_EQ(reaction_degree(k, 700.0), 0.0);
   EXPECT_EQ(reaction_degree(k, 790.0), 1.0);
-}
-
-TEST(MieGruneisen, LargeStepIsThatOfManySmallOnes) {
-  // From a tenfold volume to double density, where one mean of two pressures changed the sign of the energy.
-  const MieGruneisenParameters m;
-  const double mu0 = -0.9, mu1 = 1.0, pressure0 = mie_gruneisen_pressure(m, mu0, 0.0);
-  MieGruneisenState<double> fine{pressure0, 0.0};
-  constexpr int steps = 100000;
-  for (int k = 0; k < steps; ++k) {
-    const auto mu = [&](int step) {
-      return (1.0 + mu0) * std::pow((1.0 + mu1) / (1.0 + mu0), double(step) / steps) - 1.0;
-    };
-    fine = mie_gruneisen_compress(m, mu(k), fine.pressure, fine.energy, mu(k + 1), 0.0);
-  }
-  const auto once = mie_gruneisen_compress(m, mu0, pressure0, 0.0, mu1, 0.0);
-  // Parts of 0.5 % are steps of Gamma dw = 0.08 at the tenfold volume, w = v/v0: errors of its square,
-  // halved.
-  EXPECT_NEAR(once.energy / fine.energy, 1.0, 4e-3);
-  EXPECT_NEAR(once.pressure / fine.pressure, 1.0, 4e-3);
 }
 
 }  // namespace

@@ -143,27 +143,6 @@ TEST(MieGruneisen, IsValidUpToTheGuardAndNowhereElse) {
 
 // ---- gases ----
 
-TEST(VirialGas, IsValidWithAPressureThatRisesOrNotAtAll) {
-  const ProductGas products(composition_b_gas(), 1780.0);
-  int valid = 0, invalid = 0;
-  for (const double t : {1e-310, 1.0, 100.0, 200.0, 300.0, 500.0, 784.0, 3000.0, 1e5})
-    for (const double density : {-1.0, 0.0, 1e-310, 1e-3, 1.0, 30.0, 100.0, 200.0, 300.0, 400.0, 600.0, 800.0,
-                                 1000.0, 1717.0, 5000.0, 1e300}) {
-      SCOPED_TRACE(testing::Message() << t << " K, " << density << " kg/m3");
-      const GasState state = products.at(t, 1.0 / density);
-      ++(state.valid ? valid : invalid);
-      if (!state.valid) continue;
-      EXPECT_GT(density, 0.0);
-      EXPECT_GT(state.pressure, 0.0);
-      const GasState denser = products.at(t, 1.0 / (density * (1.0 + 1e-6)));
-      EXPECT_TRUE(!denser.valid || denser.pressure >= state.pressure);
-      const double ideal = gas_constant * t * density * 30.447;  // mol per kg
-      EXPECT_NEAR(state.pressure / (ideal * state.compressibility), 1.0, 1e-12);
-    }
-  EXPECT_GT(valid, 20);
-  EXPECT_GT(invalid, 20);
-}
-
 TEST(SecondVirial, IsTheIntegralOverTheLennardJonesPotential) {
   using Quadrature = boost::math::quadrature::gauss_kronrod<double, 61>;
   for (const double t : {0.05, 0.1, 0.2, 0.3, 0.5, 1.0, 2.0, 3.418, 10.0, 100.0, 1e3, 1e4}) {

@@ -79,19 +79,5 @@ TEST(NonlinearFit, SaysWhatIsWrong) {
   EXPECT_EQ(fit_nonlinear(infinite, {0.0}, 1e-6).failure, not_computable);
 }
 
-TEST(NonlinearFit, AnotherUnknownTakesWhatItCan) {
-  // Fit of one number a to 1/1 and 1/2, a - 1 and 2 a - 1: a = 0.6, what is left -0.4 and 0.2.
-  const NonlinearFit fit = fit_nonlinear(sums({{1.0}, {2.0}}), {0.0}, 1e-3);
-  ASSERT_EQ(fit.failure, FitFailure::none);
-  EXPECT_NEAR(fit.unknowns[0], 0.6, 1e-9);
-  EXPECT_NEAR(fit.sum_of_squares(), 0.2, 1e-9);
-  // With b in the first alone, a = 0.5 and b = 0.5 leave nothing.
-  const auto added = add_unknown(fit, {1.0, 0.0});
-  ASSERT_TRUE(added);
-  EXPECT_NEAR(added->change, 0.5, 1e-9);
-  EXPECT_NEAR(added->gain, 0.2, 1e-9);
-  EXPECT_FALSE(add_unknown(fit, {2.0, 4.0})) << "a itself";
-}
-
 }  // namespace
 }  // namespace launchsafe::math

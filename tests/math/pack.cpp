@@ -91,13 +91,6 @@ TEST(PackPow, AgreesWithTheLibraryWithinItsStatedError) {
   EXPECT_EQ(math::pow(Pack(0.0), Pack(0.26))[0], 0.0);
 }
 
-TEST(PackSqrt, IsTheLibrarysInEveryLane) {
-  std::mt19937_64 random(3);
-  const Pack x = uniform_lanes(random, 0.0, 1e9);
-  const Pack y = math::sqrt(x);
-  for (std::size_t lane = 0; lane < math::pack_width; ++lane) EXPECT_EQ(y[lane], std::sqrt(x[lane]));
-}
-
 TEST(PackSelect, ChoosesLaneByLane) {
   Pack x(0.0);
   for (std::size_t lane = 0; lane < math::pack_width; ++lane) x.set(lane, static_cast<double>(lane));

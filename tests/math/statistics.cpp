@@ -24,19 +24,13 @@ TEST(LeastSquares, GiveTheLineOfThePapersSafeRows) {
   EXPECT_NEAR(total, 0.0, 1e-10);
 }
 
-TEST(LeastSquares, UncertaintiesAreTheTextbooksForALine) {
+TEST(LeastSquares, TheDeviationIsTheTextbooksForALine) {
   // x = 0..4, y = 1, 3, 2, 5, 4: slope 0.8, intercept 1.4, residual sum 3.6, s^2 = 1.2, Sxx = 10.
   const auto fit = math::fit_line({0, 1, 2, 3, 4}, {1, 3, 2, 5, 4});
   ASSERT_TRUE(fit.has_value());
   EXPECT_NEAR(fit->coefficients[0], 1.4, 1e-13);
   EXPECT_NEAR(fit->coefficients[1], 0.8, 1e-13);
   EXPECT_NEAR(fit->residual_deviation, std::sqrt(1.2), 1e-13);
-  EXPECT_NEAR(fit->standard_errors[1], std::sqrt(1.2 / 10.0), 1e-13);
-  EXPECT_NEAR(fit->standard_errors[0], std::sqrt(1.2 * (0.2 + 4.0 / 10.0)), 1e-13);
-  EXPECT_NEAR(fit->r_squared, 0.64, 1e-13);  // 1 - 3.6/10
-  // t(3, 97.5 %) = 3.182446305 from tables.
-  const std::vector<double> centre{1.0, 2.0};
-  EXPECT_NEAR(fit->prediction_half_width(centre, 0.95), 3.182446305 * std::sqrt(1.2 * 1.2), 1e-8);
 }
 
 TEST(LeastSquares, RecoversAPolynomialExactly) {
@@ -44,14 +38,13 @@ TEST(LeastSquares, RecoversAPolynomialExactly) {
   std::vector<double> y;
   for (int k = 0; k < 8; ++k) {
     const double x = 0.3 * k - 1.0;
-    rows.push_back(math::polynomial_row(x, 3));
+    rows.push_back({1.0, x, x * x, x * x * x});
     y.push_back(2.0 - x + 0.5 * x * x + 4.0 * x * x * x);
   }
   const auto fit = math::least_squares(rows, y);
   ASSERT_TRUE(fit.has_value());
   const double expected[] = {2.0, -1.0, 0.5, 4.0};
   for (std::size_t k = 0; k < 4; ++k) EXPECT_NEAR(fit->coefficients[k], expected[k], 1e-12);
-  EXPECT_NEAR(fit->r_squared, 1.0, 1e-14);
 }
 
 TEST(LeastSquares, UselessDataGiveNoFit) {
@@ -65,8 +58,7 @@ TEST(LeastSquares, WithoutFreedomThereIsNoUncertaintyToState) {
   const auto fit = math::fit_line({0.0, 1.0}, {1.0, 3.0});
   ASSERT_TRUE(fit.has_value());
   EXPECT_NEAR(fit->coefficients[1], 2.0, 1e-14);
-  EXPECT_TRUE(std::isnan(fit->standard_errors[1]));
-  EXPECT_TRUE(std::isnan(fit->prediction_half_width({1.0, 0.5}, 0.95)));
+  EXPECT_TRUE(std::isnan(fit->residual_deviation));
 }
 
 TEST(GridConvergence, FindsTheOrderOfAnExactPowerLaw) {
@@ -77,15 +69,6 @@ TEST(GridConvergence, FindsTheOrderOfAnExactPowerLaw) {
   EXPECT_NEAR(grid->order, 1.7, 1e-10);
   EXPECT_NEAR(grid->extrapolated, 7.0, 1e-10);
   EXPECT_FALSE(grid->oscillating);
-}
-
-TEST(GridConvergence, IsThatOfThePublishedExample) {
-  // Celik et al. 2008, Table 1, recomputed without rounding.
-  const auto size = [](double cells) { return 1.0 / std::sqrt(cells); };
-  const auto grid = math::grid_convergence({6.063, 5.972, 5.863}, {size(18000), size(8000), size(4500)});
-  ASSERT_TRUE(grid.has_value());
-  EXPECT_NEAR(grid->order, 1.5340, 5.01e-5);
-  EXPECT_NEAR(grid->extrapolated, 6.1685, 5.01e-5);
 }
 
 TEST(GridConvergence, MeshesWithoutAnOrderGiveNone) {
@@ -101,19 +84,6 @@ TEST(StudentFactor, IsThatOfTheNumberOfValues) {
   EXPECT_NEAR(math::one_sided_student_factor(7, 0.95), 1.8946, 5e-5);
   EXPECT_NEAR(math::one_sided_student_factor(120, 0.95), 1.6577, 5e-5);
   EXPECT_TRUE(std::isnan(math::one_sided_student_factor(0, 0.95)));
-}
-
-// Closed form 1 - 0.025^(1/10) without an event; the others from Clopper and Pearson's tables (n = 10, 95 %).
-TEST(ClopperPearson, IsThatOfTheTables) {
-  const auto expect = [](std::size_t count, double lower, double upper) {
-    const math::Interval interval = math::clopper_pearson(count, 10, 0.95);
-    EXPECT_NEAR(interval.lower, lower, 5e-5) << count;
-    EXPECT_NEAR(interval.upper, upper, 5e-5) << count;
-  };
-  expect(0, 0.0, 1.0 - std::pow(0.025, 0.1));
-  expect(1, 0.0025, 0.4450);
-  expect(5, 0.1871, 0.8129);
-  expect(10, std::pow(0.025, 0.1), 1.0);
 }
 
 }  // namespace

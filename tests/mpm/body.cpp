@@ -16,7 +16,7 @@ double mass_of_material(const mpm::Simulation& simulation, const std::string& ma
   double total = 0.0;
   simulation.for_each_body([&](const mpm::ParticleFields& p) {
     if (simulation.scene().bodies[static_cast<std::size_t>(p.body)].material == material)
-      total += mpm::mass_of(p, simulation.scene().symmetry);
+      total += mpm::mass_of(p);
   });
   return total;
 }
@@ -33,16 +33,6 @@ TEST(Particles, HaveTheMassOfTheFormulaOnEveryMesh) {
       EXPECT_NEAR(mass_of_material(simulation, "charge"), charge, 1e-12 * charge) << cell;
       EXPECT_NEAR(mass_of_material(simulation, "steel"), steel, 1e-12 * steel) << cell;
     }
-}
-
-TEST(Particles, HaveTheMassOfTheFormulaInPlaneStrain) {
-  for (const double cell : {2.5e-3, 3.7e-3}) {
-    scene::Scene shell = test_support::shell_155(cell);
-    shell.symmetry = scene::Symmetry::plane_strain;
-    const mpm::Simulation simulation(shell);
-    const double charge = 1717.0 * 0.065 * 0.56;
-    EXPECT_NEAR(mass_of_material(simulation, "charge"), charge, 1e-12 * charge);
-  }
 }
 
 TEST(Lattice, GivesEveryParticleItsOwnSlotAndLeavesPaddingMassless) {

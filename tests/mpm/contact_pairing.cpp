@@ -36,7 +36,7 @@ TEST(ContactPairing, AUniformTractionGivesEveryNodeItsShare) {
   const FaceLine other = line({-0.2, 0.35, 0.9, 1.7, 2.2, 3.1, 4.0, 5.5});
   for (const FaceLine& own : {line({0.0, 1.0, 2.0, 3.0, 4.0}), line({0.13, 0.4, 1.9, 2.0, 3.35, 5.2}),
                               line({0.0, 4.0}), line({-0.7, 0.4, 1.1, 4.9, 6.3})})
-    for (const FaceMeasure measure : {FaceMeasure::unit_depth, FaceMeasure::radius_along}) {
+    for (const FaceMeasure measure : {FaceMeasure::radius_across, FaceMeasure::radius_along}) {
       const bool ring = measure == FaceMeasure::radius_along;
       std::vector<PairRow> rows;
       pair_faces(own, other, measure, rows);
@@ -87,7 +87,7 @@ TEST(ContactPairing, AFaceReachesALittleOverTheOthersEnd) {
   // By less than a tenth of a cell: held whole. By more: its last node meets nothing.
   std::vector<PairRow> rows;
   for (const auto& [over, meets] : {std::pair{0.05, true}, {0.3, false}}) {
-    pair_faces(line({0.0, 1.0, 2.0 + over}), line({0.0, 1.0, 2.0}), FaceMeasure::unit_depth, rows);
+    pair_faces(line({0.0, 1.0, 2.0 + over}), line({0.0, 1.0, 2.0}), FaceMeasure::radius_across, rows);
     EXPECT_EQ(rows[2].area > 0.0, meets);
     EXPECT_GT(rows[1].area, 0.9);
   }

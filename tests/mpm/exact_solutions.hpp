@@ -14,7 +14,7 @@ inline constexpr scene::Formulation both_formulations[] = {scene::Formulation::t
 /// "TotalLagrangian" or "UpdatedLagrangian", for the names of tests.
 std::string name_of(scene::Formulation formulation);
 
-/// A cylinder or strip of one material, without load.
+/// A cylinder of one material, without load.
 scene::Scene block(const std::string& material, double length, double radius, double cell_size,
                    scene::Formulation formulation = scene::Formulation::total_lagrangian);
 /// A pressure (Pa) that rises smoothly from 0 over `rise` (s) and then stays.
@@ -30,9 +30,6 @@ double bulk_modulus(const scene::Steel& steel);
 double compress(mpm::Simulation& simulation, double mu);
 /// Runs to `end` (s) in equal steps no longer than the stable one at rest; returns the step (s).
 double run_to(mpm::Simulation& simulation, double end, const std::function<void()>& before_step = {});
-/// Speed (m/s) towards the nose of a pulse between two times (s) at which it is whole and inside: of the
-/// centre of its momentum. Runs to `end`.
-double speed_of_pulse(mpm::Simulation& simulation, double begin, double end);
 /// Axial Cauchy stress of a steel or charge particle, tension positive, Pa.
 template <class Law>
 double axial_stress(const mpm::Body<Law>& body, std::size_t slot) {
@@ -65,18 +62,5 @@ WaveError longitudinal_error(scene::Formulation formulation, int cells);
 double half_space_error(double cell, int steps);
 inline constexpr double half_space_duration = 1e-3, half_space_depth = 1e-4;  // s, m
 scene::Scene half_space(double cell);
-
-/// Changes of a block that flies freely under a uniform stress in balance: all 0 in exact arithmetic.
-struct FlightDrift {
-  double momentum = 0;  ///< relative
-  double kinetic = 0;   ///< relative
-  double stress = 0;    ///< largest axial stress over the pressure
-  double work = 0;      ///< of the stress, over the kinetic energy
-  double place = 0;     ///< of the centre of mass, over the way flown
-};
-/// A block of 50 mm flies `way` (m) through the cells, of `cell` (m), of an updated-Lagrangian grid at 500
-/// m/s.
-FlightDrift drift_in_flight(double cell, double way);
-double total_mass(const mpm::Simulation& simulation);  ///< kg per radian, or per metre of a strip
 
 }  // namespace launchsafe::test_support

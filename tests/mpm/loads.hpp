@@ -72,8 +72,7 @@ class LoadedSimulation : public mpm::Simulation {
 };
 
 /// Puts a pressure (Pa) on the inner radial face of the first body for the next step, total-Lagrangian.
-inline void press_bore(mpm::TotalLagrangian& form, const mpm::ParticleFields& p, double pressure,
-                       bool axisymmetric) {
+inline void press_bore(mpm::TotalLagrangian& form, const mpm::ParticleFields& p, double pressure) {
   mpm::Nodes& n = form.nodes()[0];
   const mpm::Lattice& lattice = p.lattice;
   for (int i = 0; i + 1 < n.columns; ++i) {
@@ -81,7 +80,7 @@ inline void press_bore(mpm::TotalLagrangian& form, const mpm::ParticleFields& p,
     const double face = lattice.r_begin() + 0.5 * (n.displacement_r[node] + n.displacement_r[node + 1]);
     double length = 0.0;
     for (int part = 0; part < lattice.stride; ++part) length += lattice.length_x(i * lattice.stride + part);
-    const double force = 0.5 * pressure * (axisymmetric ? face : 1.0) * length;
+    const double force = 0.5 * pressure * face * length;
     n.written(0).force_r[node] += force;
     n.written(0).force_r[node + 1] += force;
   }
@@ -89,18 +88,17 @@ inline void press_bore(mpm::TotalLagrangian& form, const mpm::ParticleFields& p,
 
 /// Likewise of the background grid: cut by the linear hat functions in r at the face's present place and
 /// weighted in x like its particles.
-inline void press_bore(mpm::UpdatedLagrangian& form, const mpm::ParticleFields& p, double pressure,
-                       bool axisymmetric) {
+inline void press_bore(mpm::UpdatedLagrangian& form, const mpm::ParticleFields& p, double pressure) {
   mpm::Grid& grid = form.grid();
   const double half_x = 0.5 * p.lattice.length_x(0), half_r = 0.5 * p.lattice.length_r(0);
-  const mpm::StencilContext context{grid, grid.origin_x, half_x, half_r, axisymmetric};
+  const mpm::StencilContext context{grid, grid.origin_x, half_x, half_r};
   const auto nodes_x = static_cast<std::size_t>(grid.nodes_x);
   for (int i = 0; i < p.lattice.columns(); ++i) {
     const std::size_t slot = p.lattice.slot(i, 0);
     const mpm::Stencil stencil = stencil_of(context, math::Pack(p.x[slot]), math::Pack(p.r[slot]));
     if (stencil.inside.lanes[0] == 0) continue;
     const double face = p.r[slot] - half_r, coordinate = face / grid.dr + mpm::Grid::radial_padding;
-    const double force = pressure * (axisymmetric ? face : 1.0) * p.lattice.length_x(i);
+    const double force = pressure * face * p.lattice.length_x(i);
     const double cell = std::floor(coordinate), share = coordinate - cell;
     const std::size_t column = static_cast<std::size_t>(stencil.first[0]) % nodes_x;
     for (std::size_t k = 0; k < 3; ++k) {
@@ -115,9 +113,9 @@ inline void press_bore(mpm::UpdatedLagrangian& form, const mpm::ParticleFields& 
 inline void press_bore(mpm::Simulation& simulation, double pressure) {
   const mpm::ParticleFields& p = mpm::particle_fields_of(simulation.bodies()[0]);
   if (mpm::TotalLagrangian* form = simulation.total_lagrangian())
-    press_bore(*form, p, pressure, simulation.axisymmetric());
+    press_bore(*form, p, pressure);
   else
-    press_bore(*simulation.updated_lagrangian(), p, pressure, simulation.axisymmetric());
+    press_bore(*simulation.updated_lagrangian(), p, pressure);
 }
 
 }  // namespace launchsafe::test_support

@@ -39,9 +39,9 @@ struct Tube {
   double displacement;             ///< of the bore, without the part due to the free ends, m
 };
 
-/// A short ring with free ends, where sigma_rr + sigma_tt is uniform: the stresses are Lame's, and plane
-/// strain differs by a uniform axial strain only. The load is 0.1 MPa, where the laws are linear; results are
-/// scaled to 100 MPa. It is a suction, so that the outer face moves into its cell: beyond a grid line it
+/// A short ring with free ends, where sigma_rr + sigma_tt is uniform: the stresses are Lame's, and those of a
+/// long tube differ by a uniform axial strain only. The load is 0.1 MPa, where the laws are linear; results
+/// are scaled to 100 MPa. It is a suction, so that the outer face moves into its cell: beyond a grid line it
 /// would meet nodes of almost no mass, and the stress of the outermost particles would fall with time (an
 /// error of the first order in the cell size). For the same reason the bore lies inside a cell and the
 /// ends are left out.
@@ -50,7 +50,6 @@ Tube relaxed_tube(scene::Formulation formulation, int radial_cells) {
   const double cell_size = tube_outside / radial_cells;
   scene::Scene ring = block("steel", 8.0 * cell_size, tube_outside, cell_size, formulation);
   ring.bodies[0].r_begin = tube_bore;
-  ring.frame = scene::Frame::lab;
   ring.barrel = scene::Barrel::none;
   ring.load = ramp(0.0, 1e-4);
   ring.numerics.damping_time = 6.8e-6;  // critical for the breathing mode
@@ -88,7 +87,7 @@ INSTANTIATE_TEST_SUITE_P(Formulations, Statics, testing::ValuesIn(both_formulati
                          [](const auto& test) { return name_of(test.param); });
 
 TEST_P(Statics, ThickWalledTubeBearsLamesStresses) {
-  // Lame, 65/77.5 mm, plane strain.
+  // Lame, 65/77.5 mm, a long tube.
   const double exact = 574.386e6;
   const Tube coarse = relaxed_tube(GetParam(), 29), fine = relaxed_tube(GetParam(), 116);
   EXPECT_NEAR(fine.hoop_bore / exact, 1.0, 5e-4);
@@ -102,29 +101,20 @@ TEST_P(Statics, ThickWalledTubeBearsLamesStresses) {
 
 TEST_P(Statics, ColumnOfChargeBearsItsOwnWeight) {
   // rho L a at the acceleration of the 155 mm shell at 496 MPa, Pa.
-  constexpr double length = 0.56, cell = 5e-3;
-  const struct {
-    scene::Symmetry symmetry;
-    double expected;
-  } columns[] = {{scene::Symmetry::axisymmetric, 140.843e6}, {scene::Symmetry::plane_strain, 163.156e6}};
-  for (const auto& [symmetry, expected] : columns) {
-    scene::Scene shell = shell_155(cell);
-    shell.symmetry = symmetry;
-    const double pressure = 1717.0 * length * scene::rigid_acceleration(shell, 496e6);
-    scene::Scene column = block("charge", length, 2.0 * cell, cell, GetParam());
-    column.symmetry = symmetry;
-    column.load = ramp(pressure, 1e-3);
-    column.numerics.damping_time = 3e-5;
-    mpm::Simulation simulation(column);
-    run_to(simulation, 3e-3);
-    const mpm::Body<materials::Charge>& body = simulation.bodies_of<materials::Charge>()[0];
-    const mpm::Lattice& lattice = body.particles.lattice;
-    for (int i = 0; i < lattice.columns(); ++i)
-      EXPECT_NEAR(-axial_stress(body, lattice.slot(i, 0)) / pressure, lattice.x_of(i) / length, 1e-3) << i;
-    const int last = lattice.columns() - 1;
-    const double bottom = -axial_stress(body, lattice.slot(last, 0)) * length / lattice.x_of(last);
-    EXPECT_NEAR(bottom / expected, 1.0, 1e-3);
-  }
+  constexpr double length = 0.56, cell = 5e-3, expected = 140.843e6;
+  const double pressure = 1717.0 * length * scene::rigid_acceleration(shell_155(cell), 496e6);
+  scene::Scene column = block("charge", length, 2.0 * cell, cell, GetParam());
+  column.load = ramp(pressure, 1e-3);
+  column.numerics.damping_time = 3e-5;
+  mpm::Simulation simulation(column);
+  run_to(simulation, 3e-3);
+  const mpm::Body<materials::Charge>& body = simulation.bodies_of<materials::Charge>()[0];
+  const mpm::Lattice& lattice = body.particles.lattice;
+  for (int i = 0; i < lattice.columns(); ++i)
+    EXPECT_NEAR(-axial_stress(body, lattice.slot(i, 0)) / pressure, lattice.x_of(i) / length, 1e-3) << i;
+  const int last = lattice.columns() - 1;
+  const double bottom = -axial_stress(body, lattice.slot(last, 0)) * length / lattice.x_of(last);
+  EXPECT_NEAR(bottom / expected, 1.0, 1e-3);
 }
 
 /// A disc that seals, and a boom behind it. Gas presses on the boom all around and from behind, and its own

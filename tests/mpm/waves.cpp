@@ -30,21 +30,16 @@ TEST_P(Waves, ApproachDAlembertAtSecondOrder) {
 
 scene::Scene free_bar(double length, const scene::Load& load, scene::Formulation formulation) {
   scene::Scene bar = block("steel", length, 0.005, 0.0025, formulation);
-  bar.frame = scene::Frame::lab;
   bar.barrel = scene::Barrel::none;
   bar.load = load;
   return bar;
 }
 
-TEST_P(Waves, RunAtTheBarSpeedInAFreeBar) {
-  // sqrt(E/rho); a pulse much longer than the bar is thick.
-  mpm::Simulation simulation(free_bar(2.0, pulse(weak_peak, 1e-4), GetParam()));
-  EXPECT_NEAR(speed_of_pulse(simulation, 2.5e-4, 3.5e-4) / 5139.83, 1.0, 1e-3);
-}
-
 TEST_P(Waves, MoveAFreeBarAtThePressureOverItsImpedance) {
-  mpm::Simulation simulation(free_bar(1.0, ramp(weak_peak, 1e-4), GetParam()));
-  run_to(simulation, 1.8e-4);
+  const scene::Scene bar = free_bar(1.0, ramp(weak_peak, 1e-4), GetParam());
+  mpm::Simulation simulation(bar);
+  const double dt = run_to(simulation, 1.8e-4);
+  const double of_frame = scene::rigid_motion(bar, simulation.time() - 0.5 * dt).velocity;
   const mpm::ParticleFields& p = simulation.bodies_of<materials::Steel>()[0].get().particles;
   double momentum = 0.0, mass = 0.0;  // over the section 0.1 to 0.2 m from the base
   for (std::size_t i = 0; i < p.mass.size(); ++i) {
@@ -53,7 +48,7 @@ TEST_P(Waves, MoveAFreeBarAtThePressureOverItsImpedance) {
     mass += p.mass[i];
   }
   // p/(rho c) with the bar speed, at 100 MPa.
-  EXPECT_NEAR(-momentum / mass * 100e6 / weak_peak / 2.484790, 1.0, 1e-3);
+  EXPECT_NEAR((of_frame - momentum / mass) * 100e6 / weak_peak / 2.484790, 1.0, 1e-3);
 }
 
 // ---- a law that was added as one file: the mechanics knows nothing of linear elasticity but its name ----
@@ -67,8 +62,6 @@ const double glass_speed = std::sqrt(80e9 / 2500.0);
 scene::Scene glass_strip(int cells, double peak_time) {
   scene::Scene scene = block("glass", 1.0, 2.0 / cells, 1.0 / cells);
   scene.materials.push_back({"glass", glass});
-  scene.symmetry = scene::Symmetry::plane_strain;
-  scene.frame = scene::Frame::lab;
   scene.load = pulse(1e4, peak_time);
   return scene;
 }

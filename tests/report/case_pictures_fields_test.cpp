@@ -35,10 +35,10 @@ TEST(CasePictures, OfTheTemperatureShowTheSkinOfTheLargestGapThatDoesNotBurn) {
   EXPECT_NEAR(of_largest.scales[0].minimum, *coldest, 1e-6) << "the bulk, which is colder, is grey";
   EXPECT_TRUE(std::isnan(of_largest.cells.front().value));
   EXPECT_NEAR(2.0 * of_largest.cells.back().half_x, 1e3 * run.scene.surface.skin_thickness, 1e-9);
-  EXPECT_TRUE(of_largest.enlargement && of_largest.enlargement->alone) << "all else is grey";
-  EXPECT_NE(of_largest.title.find("Gap 0.04 cm at 0.04 ms"), std::string::npos) << of_largest.title;
+  EXPECT_TRUE(of_largest.window) << "all else is grey";
+  EXPECT_NE(of_largest.title.find("0.04 cm"), std::string::npos) << of_largest.title;
   run.result.gaps[2].skin.ignition = {3e-5, 0, surface::IgnitionCause::trigger, 0.1};
-  EXPECT_NE(drawn().title.find("Gap 0.01 cm"), std::string::npos);
+  EXPECT_NE(drawn().title.find("0.01 cm"), std::string::npos);
   run.result.gaps.clear();
   EXPECT_EQ(files(pictures(run.drawn({4e-5}), "fields")).front(), "field_pressure_0.04ms.svg")
       << "the bulk alone does not warm by 1 %";
@@ -53,37 +53,7 @@ TEST(CasePictures, OfAFieldMarkWhatIsFarFromAllElse) {
   const auto& plot = std::get<CellPlot>(drawn[1].plot);
   EXPECT_LT(plot.scales[0].maximum, 1e4) << "MPa";
   const std::string commands = to_gnuplot(plot);
-  EXPECT_GE(block_of(commands, "whole_above").size(), 2U) << "on both sides of the axis";
-  EXPECT_NE(commands.find("; orange: above the colours"), std::string::npos);
-  EXPECT_EQ(plot.ringed, 0U);
-  EXPECT_EQ(plot.ring_label, "1e+06 MPa");
-  EXPECT_TRUE(plot.title.ends_with(", up to 1e+06 MPa")) << plot.title;
-}
-
-// By hand, three cells burn.
-TEST(CasePictures, OfAFieldThatIsMostlyZeroHaveTheColoursOfWhatIsNot) {
-  RunScene run(cased_charge(0.2));
-  run::Snapshot burning = run.result.mechanics.snapshots.back();
-  burning.burnt_share.assign(burning.x.size(), 0.0);
-  burning.burnt_share[0] = 0.1;
-  burning.burnt_share[1] = burning.burnt_share[2] = 0.5;
-  run.result.gaps[2].combustion.emplace().snapshots = {burning};
-  for (const CasePicture& picture : pictures(run.drawn({4e-5}), "fields")) {
-    if (!picture.file.starts_with("field_burnt_share")) continue;
-    const auto& plot = std::get<CellPlot>(picture.plot);
-    EXPECT_EQ(plot.scales[0].minimum, 0.0);
-    EXPECT_EQ(plot.scales[0].maximum, 0.5);
-    EXPECT_TRUE(block_of(to_gnuplot(plot), "whole_above").empty());
-    EXPECT_TRUE(plot.title.ends_with(": up to 0.5, nothing beyond r 2.5 mm")) << plot.title;
-    EXPECT_EQ(std::ranges::count_if(plot.cells, [](const FieldCell& cell) { return cell.value > 0.0; }), 3);
-    ASSERT_TRUE(plot.enlargement);
-    EXPECT_NEAR(plot.enlargement->x_begin, -7.5, 0.1) << "mm, as far from three cells as they are long";
-    EXPECT_NEAR(plot.enlargement->x_end, 15.0, 0.1);
-    EXPECT_NEAR(plot.enlargement->r_end, 1.2 * 2.5, 1e-5)
-        << "mm, kept in single precision: they lie next to the axis";
-    return;
-  }
-  FAIL() << "no picture of the burnt share";
+  EXPECT_GE(block_of(commands, "above").size(), 2U) << "on both sides of the axis";
 }
 
 // The number of particles is that of the scene's grid.
@@ -95,7 +65,7 @@ TEST(CasePictures, OfFieldsShowEveryCellOnBothSidesOfTheAxis) {
     if (picture.file.starts_with("field_temperature")) continue;  // has the skin's cells too
     const std::string commands = to_gnuplot(std::get<CellPlot>(picture.plot));
     std::size_t cells = 0, below_axis = 0;
-    for (const char* name : {"whole_cells0", "whole_cells1", "whole_grey"})
+    for (const char* name : {"cells0", "cells1", "grey"})
       for (const std::string& line : block_of(commands, name)) {
         double x = 0, r = 0;
         std::istringstream(line) >> x >> r;
@@ -105,31 +75,6 @@ TEST(CasePictures, OfFieldsShowEveryCellOnBothSidesOfTheAxis) {
     EXPECT_EQ(cells, 2 * particles) << picture.file;
     EXPECT_EQ(below_axis, particles) << picture.file;
   }
-}
-
-TEST(CasePictures, OfFieldsHaveOneOutlineForEveryBodyWhichAtRestIsItsRectangle) {
-  const RunScene run(cased_charge());
-  const auto plot = std::get<CellPlot>(pictures(run.drawn({0.0}), "fields").front().plot);
-  ASSERT_EQ(plot.outlines.size(), run.scene.bodies.size());
-  for (std::size_t i = 0; i < plot.outlines.size(); ++i) {
-    const scene::Body& body = run.scene.bodies[i];
-    const std::vector<Place>& path = plot.outlines[i].path;
-    const auto by_x = [](const Place& a, const Place& b) { return a.x < b.x; };
-    const auto by_r = [](const Place& a, const Place& b) { return a.r < b.r; };
-    const auto [left, right] = std::minmax_element(path.begin(), path.end(), by_x);
-    const auto [low, high] = std::minmax_element(path.begin(), path.end(), by_r);
-    EXPECT_NEAR(left->x, 1e3 * body.x_begin, 1e-9) << body.name;
-    EXPECT_NEAR(right->x, 1e3 * body.x_end, 1e-9) << body.name;
-    EXPECT_NEAR(low->r, 1e3 * body.r_begin, 1e-9) << body.name;
-    EXPECT_NEAR(high->r, 1e3 * body.r_end, 1e-9) << body.name;
-    EXPECT_EQ(plot.outlines[i].open_at_axis, body.r_begin == 0.0) << body.name;
-  }
-  const std::string commands = to_gnuplot(plot);
-  EXPECT_EQ(count_of(commands, "$whole_outline"), 3 * run.scene.bodies.size())
-      << "data, plot and mirror image";
-  const auto charge = block_of(commands, "whole_outline0"), wall = block_of(commands, "whole_outline1");
-  EXPECT_NE(charge.front(), charge.back()) << "from the axis to the axis";
-  EXPECT_EQ(wall.front(), wall.back());
 }
 
 // By hand, all presses a thousand times as hard at 0.02 ms: late in a launch stresses are released.
@@ -152,15 +97,6 @@ TEST(CasePictures, OfAFieldHaveTheColoursOfTheirOwnInstant) {
       EXPECT_DOUBLE_EQ(plot.scales[0].minimum, *lowest) << "of less than 100 all count";
       EXPECT_DOUBLE_EQ(plot.scales[0].maximum, *highest);
     }
-}
-
-TEST(CasePictures, OfFieldsNameTheAxisOfSymmetryOnce) {
-  const RunScene run(cased_charge(0.2));
-  const auto plot = std::get<CellPlot>(pictures(run.drawn({4e-5}), "fields").at(1).plot);
-  ASSERT_TRUE(plot.enlargement) << "below the whole, whose lower edge is the axis";
-  const std::string commands = to_gnuplot(plot);
-  EXPECT_EQ(count_of(commands, "set label 3 'axis' "), 1U);
-  EXPECT_EQ(count_of(commands, "set arrow 1 "), 1U);
 }
 
 TEST(CasePictures, OfEventsAndOfWhatBurnsSayItInColoursOfTheirOwn) {
@@ -192,32 +128,10 @@ TEST(CasePictures, OfEventsAndOfWhatBurnsSayItInColoursOfTheirOwn) {
     const auto& plot = std::get<CellPlot>(picture.plot);
     if (!picture.file.starts_with("field_pressure_")) continue;
     EXPECT_EQ(plot.scales[0].maximum == 2000.0, picture.gap.has_value()) << picture.file;
-    if (!picture.gap) {
-      EXPECT_NE(plot.title.find(", without burning"), std::string::npos) << plot.title;
-      EXPECT_NE(plot.subtitle.find("; the same for every gap; ring: highest in the charge, x "),
-                std::string::npos)
-          << plot.subtitle;
-      continue;
+    if (picture.gap) {
+      EXPECT_NE(plot.title.find("0.04 cm"), std::string::npos) << plot.title;
     }
-    EXPECT_EQ(
-        plot.title,
-        "Pressure at 0.04 ms, ignition, gap 0.04 cm burning rises along the axis from 1900 MPa at the nose "
-        "to 2000 MPa at the bottom");
   }
-}
-
-// By hand, from 1 MPa to 8 MPa along the charge.
-TEST(CasePictures, OfAFieldThatRisesAlongTheAxisSayIt) {
-  RunScene run(cased_charge());
-  auto& pressure = run.result.mechanics.snapshots.back().pressure;
-  for (std::size_t i = 0; i < 32; ++i) pressure[i] = 1e6 * static_cast<double>(i % 8 + 1);
-  const auto title = [&] {
-    return std::get<CellPlot>(pictures(run.drawn({4e-5}), "fields").at(1).plot).title;
-  };
-  EXPECT_EQ(title(),
-            "Pressure at 0.04 ms rises along the axis from 1 MPa at the nose to 8 MPa at the bottom");
-  pressure[4] = 1e6;
-  EXPECT_EQ(title(), "Pressure at 0.04 ms: mostly 1 MPa to 8 MPa, up to 8 MPa");
 }
 
 double number_after(const std::string& text, const std::string& words) {
@@ -239,24 +153,14 @@ std::pair<double, double> scales_of_panel(const std::string& text, double width,
   return {(right - left) * width / span("xrange ["), (top - bottom) * height / span("yrange [")};
 }
 
-TEST(CasePictures, OfFieldsAreToScaleAndEnlargeTheBottomOfASlenderShell) {
-  for (const double length : {0.02, 0.2}) {
-    const RunScene run(cased_charge(length));
-    const auto plot = std::get<CellPlot>(pictures(run.drawn({4e-5}), "fields").at(1).plot);
-    EXPECT_EQ(plot.enlargement.has_value(), length > 0.1);
-    const std::string commands = to_gnuplot(plot);
-    std::smatch size;
-    ASSERT_TRUE(std::regex_search(commands, size, std::regex(R"(svg size (\d+),(\d+))")));
-    const double width = std::stod(size[1]), height = std::stod(size[2]);
-    const auto whole = scales_of_panel(commands, width, height);
-    EXPECT_NEAR(whole.first / whole.second, 1.0, 1e-9);
-    if (!plot.enlargement) continue;
-    EXPECT_LT(plot.enlargement->x_begin, 200.0) << "mm, the bottom";
-    EXPECT_GT(plot.enlargement->x_end, 200.0);
-    const auto part = scales_of_panel(commands.substr(commands.find("$whole_outline2 using")), width, height);
-    EXPECT_NEAR(part.first / part.second, 1.0, 1e-9);
-    EXPECT_GT(part.first, 1.5 * whole.first);
-  }
+TEST(CasePictures, OfFieldsAreToScale) {
+  const RunScene run(cased_charge(0.2));
+  const auto plot = std::get<CellPlot>(pictures(run.drawn({4e-5}), "fields").at(1).plot);
+  const std::string commands = to_gnuplot(plot);
+  std::smatch size;
+  ASSERT_TRUE(std::regex_search(commands, size, std::regex(R"(svg size (\d+),(\d+))")));
+  const auto scales = scales_of_panel(commands, std::stod(size[1]), std::stod(size[2]));
+  EXPECT_NEAR(scales.first / scales.second, 1.0, 1e-9);
 }
 
 }  // namespace

@@ -1,12 +1,8 @@
 #include "launchsafe/report/report.hpp"
-#include "launchsafe/store/file.hpp"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <filesystem>
-#include <regex>
-#include <set>
 #include <string>
 #include <vector>
 
@@ -32,14 +28,6 @@ TEST(PageTexts, SayWhatStandsUnderAName) {
   EXPECT_EQ(said_by(file, "answer", facts),
             (std::vector<std::string>{"1 case over pressure, crack and flaw.", "0.0123 cm of 2"}));
   EXPECT_EQ(said_by(file, "answer.case", Row::object()), std::vector<std::string>{});
-}
-
-TEST(PageTexts, TellOneFromMany) {
-  const std::string file =
-      "@cases\n{{cases|counted other case}} {{#cases|is 1}}is{{/cases|is 1}}{{#cases|over "
-      "1}}are{{/cases|over 1}}\n";
-  EXPECT_EQ(said_by(file, "cases", {{"cases", 1}}).front(), "1 other case is");
-  EXPECT_EQ(said_by(file, "cases", {{"cases", 3}}).front(), "3 other cases are");
 }
 
 // 526.8 is not over 526.9, which its whole part is not to hide.
@@ -80,37 +68,6 @@ TEST(PageTexts, ChooseTheRowsThatAreLowestOrNotKnown) {
   facts["rows"][1]["cm"] = nullptr;
   EXPECT_EQ(said_by(file, "hot", facts), std::vector<std::string>{"b"});
   EXPECT_EQ(said_by(file, "bound", facts), (std::vector<std::string>{"a", "c"}));
-}
-
-// 0.196 rounded up to the two digits of an error that begins with 1.
-TEST(PageTexts, TellANumberInTheDigitsOfItsError) {
-  const std::string file = "@line\n{{K|measured error_K}} K\n";
-  EXPECT_EQ(said_by(file, "line", {{"K", 416.2454}, {"error_K", 0.1961}}).front(), "416.25 ± 0.20 K");
-  EXPECT_EQ(said_by(file, "line", {{"K", 416.2454}, {"error_K", nullptr}}).front(), "416.2 K");
-}
-
-// A form that is none would leave a text, or a warning, as if nothing had been asked.
-TEST(PageTexts, OfTheProgramUseFormsThatThereAre) {
-  const std::set<std::string> forms{"all",   "and",       "any",     "count",  "counted", "down",
-                                    "first", "fixed",     "is",      "joined", "list",    "measured",
-                                    "mega",  "over",      "percent", "sci",    "short",   "sig",
-                                    "some",  "uncertain", "up",      "words"};
-  const std::regex tag(R"(\{\{[^}]*\}\})"), form(R"(\|([a-z_]+))"),
-      column(R"(\n\| [^\n|]+ \| [^\n|]+ \| ([a-z_]+)(?![a-z_ ]*\|))");
-  std::size_t found = 0;
-  const auto expect_known = [&](const std::string& text, const std::regex& pattern, const std::string& file) {
-    for (std::sregex_iterator each(text.begin(), text.end(), pattern), end; each != end; ++each, ++found)
-      EXPECT_TRUE(forms.contains((*each)[1])) << each->str() << " in " << file;
-  };
-  for (const auto& entry :
-       std::filesystem::recursive_directory_iterator(std::filesystem::path(LAUNCHSAFE_SOURCE_DIR) / "src")) {
-    if (entry.path().extension() != ".mustache") continue;
-    const std::string text = *store::read_file(entry.path());
-    for (std::sregex_iterator each(text.begin(), text.end(), tag), end; each != end; ++each)
-      expect_known(each->str(), form, entry.path());
-    expect_known(text, column, entry.path());
-  }
-  EXPECT_GT(found, 300u);
 }
 
 // A number that is none is neither left out nor taken for a value.

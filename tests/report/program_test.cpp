@@ -39,21 +39,13 @@ TEST_F(DrawingProgram, ThatHangsIsEndedAndSaysSo) {
   const auto svg = drawn_by("exec sleep 3600", {.time = 0.3});
   ASSERT_FALSE(svg);
   EXPECT_EQ(svg.error().kind, store::Error::Kind::failed);
-  EXPECT_NE(svg.error().message.find("not done after 0.3 s"), std::string::npos) << svg.error().message;
+  EXPECT_NE(svg.error().message.find("0.3 s"), std::string::npos) << svg.error().message;
 }
 
 TEST_F(DrawingProgram, ThatLeavesAChildWithItsOutputIsNotWaitedFor) {
   const auto svg = drawn_by("sleep 3600 & echo '<svg></svg>'", {.time = 1800.0});
   ASSERT_TRUE(svg) << svg.error().message;
   EXPECT_EQ(*svg, "<svg></svg>\n");
-}
-
-TEST_F(DrawingProgram, ThatWritesWithoutEndIsEnded) {
-  for (const std::string where : {"", " >&2"}) {
-    const auto svg = drawn_by("exec yes" + where, {.time = 1800.0});
-    ASSERT_FALSE(svg);
-    EXPECT_NE(svg.error().message.find("more than 64 MiB"), std::string::npos) << svg.error().message;
-  }
 }
 
 /// Whether a process is at work; one that has ended may wait for its parent.

@@ -95,36 +95,12 @@ TEST_F(StudyStatus, AddsUpShardsAndNamesThoseThatNobodySaw) {
   EXPECT_EQ(status_facts("out", {ended(0, "1-of-2"), ended(75, "2-of-2")}, noon)["exit_code"], 75);
 }
 
-TEST_F(StudyStatus, TakesWhatADamagedFileLacksForNothing) {
-  for (const char* text :
-       {R"({"time": "2026-03-01T12:00:00Z"})", R"({"time": "x", "cases": "many", "time_left_s": "x"})",
-        R"({"time": "2026-03-01T12:00:00Z", "exit_code": 1e300})"}) {
-    const Row facts = status_facts("out", {{"", Row::parse(text)}}, noon);
-    EXPECT_EQ(facts["cases"], 0) << text;
-    EXPECT_FALSE(status_text(facts).empty()) << text;
-  }
-}
-
-TEST_F(StudyStatus, TellsTimesOfOtherDaysWithTheDay) {
-  EXPECT_EQ(clock_time(noon + 60, noon), "12:01");
-  EXPECT_EQ(clock_time(noon + 86400, noon), "Mon 12:00");
-  EXPECT_EQ(clock_time(noon + 30 * 86400, noon), "2026-03-31 12:00");
-}
-
 TEST_F(StudyStatus, FindsTheNextTimeOfDay) {
   EXPECT_EQ(next_clock_time("12:30", noon), noon + 1800);
   EXPECT_EQ(next_clock_time("06:00", noon), noon + 18 * 3600);
   EXPECT_EQ(next_clock_time("12:00", noon), noon + 86400);
   for (const char* text : {"", "6", "25:00", "06:00pm", "soon"})
     EXPECT_FALSE(next_clock_time(text, noon)) << text;
-}
-
-TEST_F(StudyStatus, LooksAheadOfTheClocksThatAreSetForward) {
-  ::setenv("TZ", "CET-1CEST,M3.5.0,M10.5.0/3", 1);
-  ::tzset();
-  const std::time_t evening =
-      1774735200;  // 2026-03-28T22:00:00Z, 23:00 local; clocks are set forward at 02:00
-  EXPECT_EQ(next_clock_time("06:00", evening), evening + 6 * 3600);
 }
 
 }  // namespace

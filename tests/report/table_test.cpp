@@ -3,7 +3,6 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
-#include <algorithm>
 #include <functional>
 #include <limits>
 #include <optional>
@@ -55,36 +54,6 @@ TEST(Table, IsPrintedInPartsThatFitWhereItIsTooWide) {
       << "one column beside the first at the least";
 }
 
-TEST(Table, EveryPartBeginsWithTheColumnsThatTellItsRowsApart) {
-  Table table;
-  table.columns = {{"case", "case"}, {"gap", "gap"}, {"first", "first"}, {"other", "other"}};
-  table.rows = {{"A", "1", "p", "q"}, {"A", "2", "r", "s"}};
-  EXPECT_EQ(to_text(table, 20),
-            "case  gap  first\n"
-            "----  ---  -----\n"
-            "A     1    p\n"
-            "A     2    r\n"
-            "\n"
-            "case  gap  other\n"
-            "----  ---  -----\n"
-            "A     1    q\n"
-            "A     2    s\n");
-}
-
-TEST(Table, TextAlignsByCharactersNotBytes) {
-  Table table;
-  table.columns = {{"tau", "\u03c4"}, {"b", "b"}};
-  table.rows = {{"\u03b1\u03b2", "x"}, {"ab", "y"}};
-  EXPECT_EQ(to_text(table), "\u03c4   b\n--  -\n\u03b1\u03b2  x\nab  y\n");
-}
-
-TEST(Table, TextKeepsARowOnItsLine) {
-  Table table;
-  table.columns = {{"reason", "reason"}};
-  table.rows = {{"first\nsecond\tthird"}};
-  EXPECT_EQ(to_text(table), "reason\n------------------\nfirst second third\n");
-}
-
 TEST(Table, NotesStandUnderIt) {
   Table table = verdicts();
   table.notes = {"One row was calibrated.", "Two were not."};
@@ -111,21 +80,6 @@ TEST(Table, ASentenceThatAllRowsShareStandsOnceBelowIt) {
       << "the clauses that they end with";
   table.rows.push_back({0.3, std::string("another")});
   EXPECT_EQ(to_text(table).find("in all rows"), std::string::npos);
-}
-
-TEST(Table, ASentenceOfSeveralRowsIsANoteBelowIt) {
-  const std::string sentence =
-      "extrapolated: the constants were calibrated on another launch, and it is long";
-  Table table{"", {{"gap", "gap", keys::significant(3, centimetre)}, {"reason", "reason"}}, {}, {}};
-  for (const double gap : {0.1, 0.2, 0.25}) table.rows.push_back({gap, sentence});
-  table.rows.push_back({0.3, std::string("ignition")});
-  EXPECT_EQ(to_text(table).find("note 1"), std::string::npos) << "three rows are read in place";
-  table.rows.push_back({0.4, sentence});
-  EXPECT_EQ(
-      to_text(table),
-      "gap [cm]  reason\n--------  --------\n     0.1  note 1\n     0.2  note 1\n    0.25  note 1\n     0.3  "
-      "ignition\n     0.4  note 1\n\nnote 1: " +
-          sentence + "\n");
 }
 
 TEST(Table, MarkdownHasItsRuleAndAlignment) {
@@ -225,18 +179,6 @@ TEST(Quantity, ANumberThatIsNotThereIsToldOnlyWhereItAlwaysIs) {
   EXPECT_EQ(to_csv(table_of({}, quantities, {infinite})), "u_K,v_K\r\n,Infinity\r\n");
 }
 
-TEST(Quantity, ThoseOfAPartAreThoseOfTheWhole) {
-  const Measured part{"a", 0.01, std::nullopt, 0.0, 1, true};
-  const Table table = table_of({}, of_part<Outer>(measured_quantities(), &Outer::part),
-                               std::vector<Outer>{{&part}, {nullptr}});
-  EXPECT_EQ(to_csv(table), "case,gap_cm,peak_MPa,drift_percent,steps,sound\r\na,1,,0,1,yes\r\n,,,,,\r\n");
-}
-
-TEST(Quantity, InWordsAValueHasItsDigitsAndItsUnit) {
-  EXPECT_EQ(in_words(0.000380959, keys::significant(3, centimetre)), "0.0381 cm");
-  EXPECT_EQ(in_words(0.05, keys::significant(3)), "0.05");
-}
-
 TEST(Table, AColumnMayBeForPeopleOrForProgramsAlone) {
   Table table = verdicts();
   table.columns[1].audience = Audience::people;
@@ -246,30 +188,6 @@ TEST(Table, AColumnMayBeForPeopleOrForProgramsAlone) {
   EXPECT_TRUE(to_csv(table).starts_with("gap_cm,at,steps,verdict\r\n0,G2,36000,SAFE\r\n")) << to_csv(table);
   EXPECT_EQ(json_rows(table)[0].size(), 4u);
   EXPECT_EQ(json_rows(table)[0].dump(), R"({"gap_cm":0.0,"at":"G2","steps":36000,"verdict":"SAFE"})");
-}
-
-TEST(Table, RowsAppendedToAnArrayAreThoseOfTheJson) {
-  std::string text = "[";
-  append_json_rows(text, verdicts());
-  EXPECT_EQ(nlohmann::ordered_json::parse(text + "]"), json_rows(verdicts()));
-  append_json_rows(text, verdicts());
-  EXPECT_EQ(nlohmann::ordered_json::parse(text + "]").size(), 4u) << "behind what is there";
-  EXPECT_EQ(std::count(text.begin(), text.end(), '\n'), 4) << "a line each";
-}
-
-TEST(Table, NotationsRound) {
-  Table table;
-  table.columns = {{"a", "a", keys::scientific(2)}, {"b", "b", keys::significant(3)}};
-  table.rows = {{1.5e-5, 2.0e-9}};
-  EXPECT_NE(to_text(table).find("1.50e-05  2e-09"), std::string::npos) << to_text(table);
-}
-
-TEST(Table, WithoutRowsItIsStillATable) {
-  Table table = verdicts();
-  table.rows.clear();
-  EXPECT_NE(to_text(table).find("gap [cm]"), std::string::npos);
-  EXPECT_EQ(json_rows(table), nlohmann::ordered_json::array());
-  EXPECT_EQ(to_csv(table), "gap_cm,t_max_K,at,steps,verdict\r\n");
 }
 
 }  // namespace

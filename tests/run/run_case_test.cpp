@@ -190,7 +190,8 @@ TEST(RunWithSkin, AgreesWithTheTracedTemperaturesBelowIgnition) {
     EXPECT_TRUE(with_skin.gaps.front().with_mechanics);
     EXPECT_NEAR(with_skin.gaps.front().air.taken, traced.air.taken, 1e-3 * traced.air.taken);
     EXPECT_EQ(with_skin.gaps.front().air.supplied, traced.air.supplied);
-    EXPECT_EQ(traced.air.ratio() > 10.0, gap > 0.0);  // the reservoir gives what no compression can
+    EXPECT_EQ(traced.air.taken > 10.0 * traced.air.supplied,
+              gap > 0.0);  // the reservoir gives what no compression can
   }
 }
 
@@ -204,24 +205,6 @@ TEST(RunWithSkin, IgnitesWhenAndWhereTheTraceDoes) {
   ASSERT_TRUE(traced.skin.ignition.has_value());
   EXPECT_EQ(with_skin.gaps.front().skin.ignition->station, traced.skin.ignition->station);
   EXPECT_NEAR(with_skin.gaps.front().skin.ignition->time, traced.skin.ignition->time, 1e-6);
-}
-
-/// Opt-in (a minute): the bound on the mesh dependence of the charge-bottom pressure up to the peak.
-TEST(BottomPressureSlow, AgreesWithinFivePercentAtHalfTheCellSize) {
-  scene::Scene scene = coarse_scene();
-  scene.numerics.cell_size = 2.5e-3;
-  const trace::BottomTrace coarse = run_mechanics(scene).trace;
-  scene.numerics.cell_size = 1.25e-3;
-  const trace::BottomTrace fine = run_mechanics(scene).trace;
-  double largest = 0.0;
-  for (std::size_t i = 0; i < fine.samples() && fine.time[i] <= scene.load.peak_time; ++i) {
-    const double difference =
-        trace::interpolate(coarse.time, coarse.bottom_pressure, fine.time[i]) - fine.bottom_pressure[i];
-    if (fine.bottom_pressure[i] > 1e6)
-      largest = std::max(largest, std::abs(difference) / fine.bottom_pressure[i]);
-  }
-  RecordProperty("largest_difference_percent", std::to_string(100.0 * largest));
-  EXPECT_LT(largest, 0.05);
 }
 
 }  // namespace

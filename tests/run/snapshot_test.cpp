@@ -11,7 +11,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <set>
 #include <string_view>
 
 namespace launchsafe::run {
@@ -131,7 +130,7 @@ TEST(SnapshotsOfEvents, OfTheLargestSlipIsTheSampleWithIt) {
                                            [&](const Snapshot& each) { return each.time == when; }));
 }
 
-// The launch that goes on from a checkpoint, or is computed again, is bitwise the same.
+// The launch that is computed again is bitwise the same.
 TEST(SnapshotsOfEvents, OfIgnitionIsTheLaunchAtTheEarliestOfItsGaps) {
   for (const auto form : {scene::Formulation::total_lagrangian, scene::Formulation::updated_lagrangian}) {
     scene::Scene scene = shell();
@@ -156,13 +155,12 @@ TEST(SnapshotsOfEvents, OfIgnitionIsTheLaunchAtTheEarliestOfItsGaps) {
   }
 }
 
-TEST(SnapshotsOfEvents, ThatDoNotHappenAreNamed) {
+TEST(SnapshotsOfEvents, ThatDoNotHappenAreNotThere) {
   scene::Scene scene = shell();
   scene.charge().kinetics.ignition_temperature = 500.0;
   scene.output.snapshot_events = {Event::peak_pressure, Event::largest_slip, Event::ignition};
   const CaseResult result = run_case(scene);
   EXPECT_EQ(result.mechanics.snapshots.size(), 1U);
-  EXPECT_EQ(events_without_snapshot(scene, result), (std::vector{Event::largest_slip, Event::ignition}));
 }
 
 TEST(Snapshots, HoldTheSkinsOfAllGapsAlongTheBottom) {
@@ -258,9 +256,8 @@ TEST(Snapshots, OfAGapThatBurnsBeginWithItsIgnition) {
   scene.output.trace_interval = 1e-5;
   scene.coupling = scene::Coupling::two_way;
   scene.combustion.duration = 1.5e-3;
-  scene.combustion.kinetics = "effective";  // the skin burns through in that time
   scene.output.snapshot_times = {1e-4, 1e-3, 1.05e-3};
-  scene.output.snapshot_events = {Event::ignition, Event::burnt};
+  scene.output.snapshot_events = {Event::ignition};
   const CaseResult result = run_case(scene);
   ASSERT_EQ(result.mechanics.snapshots.size(), 2U) << "the launch ends at 1 ms";
   for (const Snapshot& shot : result.mechanics.snapshots) EXPECT_TRUE(shot.burnt_share.empty());
@@ -268,11 +265,10 @@ TEST(Snapshots, OfAGapThatBurnsBeginWithItsIgnition) {
   ASSERT_TRUE(result.gaps[1].combustion);
   const CombustionHistory& burning = *result.gaps[1].combustion;
   const double ignition = result.gaps[1].skin.ignition->time;
-  const Snapshot first = of(burning.snapshots, Event::ignition), last = of(burning.snapshots, Event::burnt);
+  const Snapshot first = of(burning.snapshots, Event::ignition), &last = burning.snapshots.back();
   ASSERT_FALSE(first.skins.empty() || last.skins.empty());
   EXPECT_EQ(first.time, burning.snapshots.front().time);
   EXPECT_NEAR(first.time, ignition, 2e-6);
-  EXPECT_EQ(last.time, burning.complete_time);
   EXPECT_NEAR(largest(last.skins.front().reaction_degree), 1.0, 1e-12);
   EXPECT_LT(largest(first.skins.front().reaction_degree), 0.1);
   EXPECT_GT(largest(last.burnt_share), largest(first.burnt_share));
@@ -280,34 +276,6 @@ TEST(Snapshots, OfAGapThatBurnsBeginWithItsIgnition) {
       std::find_if(burning.snapshots.begin(), burning.snapshots.end(),
                    [](const Snapshot& shot) { return shot.time >= 1e-3 && shot.events.empty(); });
   ASSERT_NE(late, burning.snapshots.end());
-  EXPECT_TRUE(events_without_snapshot(scene, result).empty());
-}
-
-TEST(SnapshotFields, AreNamedOnceInTheUnitOfWhatTheyMeasure) {
-  std::set<std::string_view> names;
-  for (const SnapshotField& field : snapshot_fields()) {
-    EXPECT_TRUE(names.insert(field.name).second) << field.name;
-    const std::string_view unit = scene::si_unit_of(field.shown.dimension);
-    EXPECT_EQ(field.unit, unit.empty() ? "1" : unit) << field.name;
-    EXPECT_NE(field.meaning, "") << field.name;
-  }
-  for (const char* of_laws : {"crack_radius", "plastic_strain"}) EXPECT_TRUE(names.contains(of_laws));
-}
-
-TEST(SnapshotFields, HoldWhatTheLawOfABodyShows) {
-  scene::Scene scene = shell();
-  scene.output.snapshot_times = {0.0};
-  const MechanicsResult run = run_mechanics(scene);
-  const Snapshot& shot = run.snapshots.front();
-  for (const SnapshotField& field : snapshot_fields())
-    if (field.name != "burnt_share") {
-      EXPECT_EQ(values_of(shot, field).size(), shot.x.size()) << field.name;
-    }
-  const double radius = scene.charge().strength.initial_crack_radius;
-  for (std::size_t i = 0; i < shot.x.size(); ++i) {
-    const scene::Body& body = scene.bodies[static_cast<std::size_t>(shot.body[i])];
-    EXPECT_EQ(shot.state.at("crack_radius")[i], scene::is_charge(scene, body) ? radius : 0.0) << body.name;
-  }
 }
 
 }  // namespace

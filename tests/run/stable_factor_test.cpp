@@ -1,4 +1,3 @@
-#include "../../src/run/monitor.hpp"
 #include "launchsafe/run/run_case.hpp"
 #include "launchsafe/scene/read_scene.hpp"
 
@@ -19,19 +18,8 @@ scene::Scene small_shell(scene::Formulation formulation = scene::Formulation::up
   return scene;
 }
 
-/// 6/L^2 in both directions: see the header.
-TEST(StableFactor, IsTwoOverTheRootOfTwelveForOneParticleASquareCell) {
-  EXPECT_NEAR(proved_time_step_factor(small_shell()), 2.0 / std::sqrt(12.0), 1e-9);
-}
-
-/// Half-length L/4: 2/(L l) + 1/(L (L - l)) = 8 + 4/3 in both directions.
-TEST(StableFactor, IsSmallerForMoreParticlesACell) {
-  scene::Scene scene = small_shell();
-  scene.numerics.particles_per_cell = 2;
-  EXPECT_NEAR(proved_time_step_factor(scene), 2.0 / std::sqrt(2.0 * (8.0 + 4.0 / 3.0)), 1e-9);
-}
-
-/// The measured limit lies above the proved one, as it must, and below that of particles that stay in the
+/// The measured limit lies above that of Irons and Treharne for single particles, 2/sqrt(12), as it must, and
+/// below that of particles that stay in the
 /// middle of their cells, 1/sqrt(2), since the shell has free faces: the theory is sharp.
 TEST(StableFactor, TheMeasuredLimitLiesBetweenTheTheoriesOfFreeAndFilledCells) {
   scene::Scene scene = small_shell();
@@ -44,25 +32,11 @@ TEST(StableFactor, TheMeasuredLimitLiesBetweenTheTheoriesOfFreeAndFilledCells) {
     (run.status == RunStatus::completed ? stable : broken) = factor;
     if (run.status == RunStatus::completed) continue;
     slowest = std::max(slowest, run.steps);
-    EXPECT_NE(run.reason.find("time step factor"), std::string::npos) << run.reason;
   }
   EXPECT_GE(stable, 2.0 / std::sqrt(12.0));
   EXPECT_LE(broken, 1.0 / std::sqrt(2.0));
   EXPECT_LT(slowest, 1500u) << "instability must be caught soon";
   RecordProperty("measured_limit", std::to_string(0.5 * (stable + broken)));
-}
-
-TEST(StableFactor, AStepWithinItIsNotNamedWhereARunBreaks) {
-  scene::Scene scene = small_shell();
-  EXPECT_TRUE(step_remark(scene).empty());
-  scene.numerics.time_step_factor = 0.8;
-  EXPECT_NE(step_remark(scene).find("0.8 is above 0.577"), std::string::npos) << step_remark(scene);
-}
-
-/// Beside the axis S_1 = 2/3, so that 1/S_0 + 1/S_1 = 4.5, and 4 along x.
-TEST(StableFactor, OfTheLatticeIsThatOfTheRowBesideTheAxis) {
-  const scene::Scene scene = small_shell(scene::Formulation::total_lagrangian);
-  EXPECT_NEAR(proved_time_step_factor(scene), 2.0 / std::sqrt(8.5), 1e-9);
 }
 
 /// The measured limit lies above the proved one, and no more than a tenth.
@@ -73,7 +47,6 @@ TEST(StableFactor, OfTheLatticeIsSharp) {
   scene.numerics.time_step_factor = 0.76;
   const MechanicsResult broken = run_mechanics(scene);
   EXPECT_NE(broken.status, RunStatus::completed);
-  EXPECT_NE(broken.reason.find("time step factor"), std::string::npos) << broken.reason;
   EXPECT_LT(broken.steps, 1500u) << "instability must be caught soon";
 }
 

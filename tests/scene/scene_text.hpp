@@ -51,20 +51,24 @@ inline InputError error_of(const std::string& text) {
   return file ? InputError{} : file.error();
 }
 
-/// Checks that an error names file, line, key, what was found and what is allowed, in the error and in its
-/// message.
-inline void expect_error(const InputError& error, int line, std::string_view key, std::string_view found,
-                         std::string_view allowed) {
+/// Checks that an error names file, line, key and, where one is given, the value that was found.
+inline void expect_error(const InputError& error, int line, std::string_view key,
+                         std::string_view value = {}) {
   const std::string message = error.message();
   EXPECT_EQ(error.file, "shell.toml");
   EXPECT_EQ(error.line, line) << message;
   EXPECT_EQ(error.key, key) << message;
-  EXPECT_NE(error.found.find(found), std::string::npos) << message;
-  EXPECT_NE(error.allowed.find(allowed), std::string::npos) << message;
+  EXPECT_NE(error.found.find(value), std::string::npos) << message;
   EXPECT_TRUE(message.starts_with("shell.toml:" + std::to_string(line) + ":")) << message;
-  for (const std::string& part : {error.key, error.found, error.allowed, error.suggestion}) {
-    EXPECT_NE(message.find(part), std::string::npos) << message;
-  }
+}
+
+/// The scene with one key changed to a value as written: "0.1 mm", "true", "comp-b".
+inline Expected<SceneFile> with_written_key(const SceneFile& file, const std::string& name,
+                                            std::string_view written, const Place& place) {
+  return caught([&] {
+    const Value value = parse_value(written, describe_key(file, name, place).or_throw(), place).or_throw();
+    return with_keys(file, {{name, value, place}}).or_throw();
+  });
 }
 
 }  // namespace launchsafe::scene

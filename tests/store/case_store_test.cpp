@@ -32,7 +32,6 @@ TEST_F(CaseStoreTest, GivesBackEveryBit) {
   const auto result = store->load(hash);
   ASSERT_TRUE(result) << result.error().message;
   expect_same(result_of(1), *result);
-  EXPECT_EQ(*store->input_of(hash), identity_of(1).input());
 }
 
 TEST_F(CaseStoreTest, RemembersAfterItWasClosed) {
@@ -48,9 +47,7 @@ TEST_F(CaseStoreTest, RemembersAfterItWasClosed) {
     EXPECT_EQ(entry->model_version, model_version);
     EXPECT_EQ(entry->wall_time, 61.5);
     EXPECT_EQ(entry->processor_time, 60.25);
-    EXPECT_EQ(entry->predicted_updates, 1e9);
     EXPECT_EQ(entry->program, program_of(make_manifest({}, 1)));
-    EXPECT_EQ(entry->file_size, std::filesystem::file_size(file_of(number)));
     expect_same(result_of(number), *store->load(hash));
   }
   EXPECT_EQ(store->records().size(), 3U);
@@ -93,17 +90,6 @@ TEST_F(CaseStoreTest, AMissingCaseIsToldFromADamagedOne) {
   EXPECT_FALSE(store->record_of(identity_of(1).hash()));
 }
 
-TEST_F(CaseStoreTest, AResultThatDoesNotFitTogetherEndsTheWriting) {
-  int failures = 0;
-  const auto store = CaseStore::open(where(), "", [&](const Error&) { ++failures; });
-  run::CaseResult result = result_of(1);
-  result.mechanics.trace.chamber_pressure.pop_back();
-  (*store)->save(identity_of(1), sample_scene(), result, record_of(1));
-  EXPECT_TRUE((*store)->flush());
-  EXPECT_EQ(failures, 1);
-  EXPECT_FALSE((*store)->holds(identity_of(1).hash()));
-}
-
 // --- attempts ---
 
 TEST_F(CaseStoreTest, RecordsAttemptsThatLeftNoResult) {
@@ -114,7 +100,6 @@ TEST_F(CaseStoreTest, RecordsAttemptsThatLeftNoResult) {
     entry.state = CaseState::timed_out;
     entry.reason = "60 s had passed";
     entry.time_limit = 60;
-    entry.predicted_updates = not_a_number;
     store->note(entry);
     EXPECT_EQ(store->record_of(entry.hash)->state, CaseState::timed_out);
   }
@@ -123,7 +108,6 @@ TEST_F(CaseStoreTest, RecordsAttemptsThatLeftNoResult) {
   EXPECT_EQ(entry->state, CaseState::timed_out);
   EXPECT_EQ(entry->reason, "60 s had passed");
   EXPECT_EQ(entry->time_limit, 60);
-  EXPECT_TRUE(std::isnan(entry->predicted_updates));
   EXPECT_TRUE(std::regex_match(entry->end_time, std::regex(R"(20\d\d-\d\d-\d\dT\d\d:\d\d:\d\dZ)")));
 }
 

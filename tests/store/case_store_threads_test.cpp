@@ -25,7 +25,6 @@ void use(CaseStore& store, int thread, std::atomic<int>& faults) {
     if (answer_in(store, number) != std::to_string(number)) ++faults;
     if (!store.record_of(hash) || store.records().empty()) ++faults;
     if (step % 7 == 0 && store.flush()) ++faults;
-    if (store.input_of(hash).has_value() == false) ++faults;
   }
 }
 
@@ -46,25 +45,6 @@ TEST_F(StoreThreads, SaveLoadAndAskAtTheSameTime) {
     EXPECT_TRUE(store->holds(identity_of(number).hash()));
     EXPECT_EQ(store->record_of(identity_of(number).hash())->wall_time, 61.5) << "as it was saved";
     EXPECT_EQ(answer_in(*store, number), std::to_string(number));
-  }
-}
-
-TEST_F(StoreThreads, ADamagedFileIsReplacedAndNoNewOneIsLost) {
-  fill(1);
-  const std::string hash = identity_of(0).hash();
-  for (int round = 0; round < 10; ++round) {
-    std::filesystem::resize_file(file_of(0), 100);
-    const auto store = opened();
-    std::vector<std::thread> team;
-    for (int thread = 0; thread < 4; ++thread) {
-      team.emplace_back([&] {
-        if (!store->holds(hash)) save(*store, 0);
-      });
-    }
-    for (std::thread& member : team) member.join();
-    ASSERT_FALSE(store->flush());
-    EXPECT_TRUE(store->holds(hash));
-    EXPECT_TRUE(store->load(hash));
   }
 }
 

@@ -29,7 +29,6 @@ inline void expect_same(const trace::BottomTrace& a, const trace::BottomTrace& b
   EXPECT_EQ(bits(a.time), bits(b.time));
   EXPECT_EQ(bits(a.chamber_pressure), bits(b.chamber_pressure));
   EXPECT_EQ(bits(a.bottom_pressure), bits(b.bottom_pressure));
-  EXPECT_EQ(bits(a.mean_chamber_pressure), bits(b.mean_chamber_pressure));
   EXPECT_EQ(bits(a.mean_bottom_pressure), bits(b.mean_bottom_pressure));
   for (std::size_t i = 0; i < trace::traced_closures; ++i)
     EXPECT_EQ(bits(a.friction[i]), bits(b.friction[i]));

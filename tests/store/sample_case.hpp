@@ -18,7 +18,6 @@ inline trace::BottomTrace sample_trace() {
   trace.time = {0, 1e-5, 2e-5};
   trace.chamber_pressure = {101325, 2e5, 0.1};
   trace.bottom_pressure = {101325, not_a_number, -0.0};
-  trace.mean_chamber_pressure = {101325, 1.5e5, 3e5};
   trace.mean_bottom_pressure = {101325, 5e-324, infinite};
   trace.friction[0] = {0, 0, 1.1, 2.2, 3.3, 4.4};
   return trace;  // the other closure was not traced

@@ -2,7 +2,6 @@
 
 #include "launchsafe/kinds/kind.hpp"
 #include "launchsafe/study/case_answer.hpp"
-#include "launchsafe/study/record_domain.hpp"
 #include "store/temporary_folder.hpp"
 #include "study/made_record.hpp"
 
@@ -57,10 +56,8 @@ AccuracyRecord sharing(const Shared& shared) {
   return record;
 }
 
-const Shared inexact[] = {{"numerics.inertial_scaling", 16.0},
-                          {"numerics.damping_time", 1e-4},
-                          {"numerics.pic_fraction", 0.01},
-                          {"frame", std::string("lab")}};
+const Shared inexact[] = {
+    {"numerics.inertial_scaling", 16.0}, {"numerics.damping_time", 1e-4}, {"numerics.pic_fraction", 0.01}};
 
 TEST(AccuracyRecord, VouchesForNothingThatAllItsRunsShareAndThatIsNotExact) {
   for (const Shared& shared : inexact) {
@@ -90,16 +87,6 @@ TEST(AccuracyRecord, WhatASharedKeyChangesIsAddedWhereASettingTells) {
     EXPECT_NEAR(record.settings[3].temperature_bound, own_bound + 1.5 + 4.5, 1e-6) << shared.key;
     EXPECT_EQ(why_foreign(record, own_scene()), "") << shared.key;
   }
-}
-
-TEST(AccuracyRecord, EveryKeyOfASettingIsKnownToVanishSomehow) {
-  for (const auto& [key, value] : setting_of(own_scene())) {
-    const keys::Exactness exactness = scene::role_of(key).exactness;
-    EXPECT_TRUE(exactness.vanishes || exactness.value) << key;
-    EXPECT_TRUE(!exactness.value || exactness.value->index() == value.index()) << key;
-  }
-  EXPECT_FALSE(scene::role_of("numerics.of_tomorrow").exactness.vanishes)
-      << "a key is not exact until somebody says where";
 }
 
 TEST(AccuracyRecord, PicksTheCheapestSettingWithinATolerance) {
@@ -132,7 +119,6 @@ TEST(AccuracyRecord, IsForeignToAnotherShellOrClosure) {
       [](auto& s) { s.charge().strength.face_friction = 0.0; },
       [](auto& s) { s.barrel = scene::Barrel::none; },
       [](auto& s) { s.surface.friction = scene::FrictionClosure::inelastic; },
-      [](auto& s) { s.surface.air_pressure = scene::AirPressure::chamber; },
       [](auto& s) {
         s.interfaces = {{.body = "wall", .condition = scene::Condition::sliding, .friction = 0.1}};
       }};
@@ -141,42 +127,6 @@ TEST(AccuracyRecord, IsForeignToAnotherShellOrClosure) {
     changes[i](scene);
     EXPECT_NE(why_foreign(made_record(), scene), "") << i;
   }
-}
-
-/// Whether the record of one scene speaks of another.
-bool covers(const scene::Scene& recorded, const scene::Scene& scene) {
-  return distance_to_record(RecordKind::accuracy, scene, recorded).inside();
-}
-
-// Issue 31, point 6.
-TEST(AccuracyRecord, BelongsToItsStations) {
-  for (const double size : {3e-3, 10e-3}) {
-    scene::Scene wide = own_scene(), deep = own_scene();
-    wide.surface.station_width = deep.surface.station_depth = size;
-    EXPECT_FALSE(covers(own_scene(), wide));
-    EXPECT_FALSE(covers(own_scene(), deep));
-  }
-}
-
-/// Where the pressure acts until is no number of the load that its history shows.
-TEST(AccuracyRecord, BelongsToItsDrivingBand) {
-  scene::Scene longer = own_scene();
-  longer.load.obturation = 0.2;
-  EXPECT_FALSE(covers(own_scene(), longer));
-}
-
-TEST(AccuracyRecord, BelongsToOneWayOfHoldingTheCharge) {
-  const auto held_by = [](double friction) {
-    scene::Scene scene = own_scene();
-    scene.interfaces = {{.body = "wall", .condition = scene::Condition::sliding, .friction = friction}};
-    return scene;
-  };
-  EXPECT_TRUE(covers(held_by(0.1), held_by(0.1)));
-  EXPECT_FALSE(covers(held_by(0.1), held_by(0.2)));
-  scene::Scene bonded = own_scene(), said = own_scene();
-  bonded.interfaces.clear();
-  said.interfaces = {{.body = "wall"}};
-  EXPECT_TRUE(covers(bonded, said));
 }
 
 /// A study beside a record in a folder of its own.
@@ -276,18 +226,6 @@ TEST_F(RecordedStudy, CoversGapsOneByOne) {
     EXPECT_NEAR(numerical_share(input, 1e-4, 1.0), own_bound, 1e-6) << gaps;
     EXPECT_EQ(numerical_share(input, 3e-3, 1.0), assumed_numerical_uncertainty) << gaps;
   }
-}
-
-TEST_F(RecordedStudy, AGrownBoundBeyondTheRangeIsNotReplacedByASmallerAssumption) {
-  AccuracyRecord record = made_record();
-  for (double& temperature : record.settings[2].temperature) temperature += 50.0;
-  find_bounds(record);
-  write(record);
-  const double bound = record.settings[2].temperature_bound;
-  ASSERT_GT(bound, assumed_numerical_uncertainty);
-  const StudyFile study = read(record_key + vary({{"peak_pressure", "992 MPa"}}));
-  EXPECT_NEAR(study.cases.front().numerical_uncertainty, 4.0 * bound, 1e-3);
-  EXPECT_TRUE(numerical_uncertainty_of(study).assumed);
 }
 
 TEST_F(RecordedStudy, AToleranceReplacesTheSettingAndSaysWhich) {

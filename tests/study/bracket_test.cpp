@@ -35,7 +35,7 @@ TEST(CriticalGapSearch, AllSafeIsABoundAndNotANumber) {
   EXPECT_TRUE(std::isnan(found.upper));
   EXPECT_EQ(found.lower, 1e-3);
   EXPECT_EQ(found.reason.code, GapReasonCode::end_of_search);
-  EXPECT_EQ(text_of(found.reason), "no ignition up to 0.1 cm, where the search ended");
+  EXPECT_NE(text_of(found.reason).find("0.1 cm"), std::string::npos);
 }
 
 TEST(CriticalGapSearch, AllIgniteIsABoundAndNotANumber) {
@@ -68,7 +68,7 @@ TEST(CriticalGapSearch, SafeGapsBeyondTheFirstIgnitionMakeItSeveralCrossings) {
   EXPECT_NEAR(found.lower, 2e-4, 1e-6);
   EXPECT_NEAR(found.upper, 2e-4, 1e-6);
   EXPECT_EQ(found.reason.code, GapReasonCode::not_monotone);
-  EXPECT_EQ(text_of(found.reason), "not monotone: no ignition at 0.0625 cm again");
+  EXPECT_NE(text_of(found.reason).find("0.0625 cm"), std::string::npos);
 }
 
 }  // namespace

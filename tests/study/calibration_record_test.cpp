@@ -4,7 +4,6 @@
 #include "launchsafe/kinds/kind.hpp"
 #include "study/synthetic_launch.hpp"
 
-#include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 #include <cmath>
@@ -36,16 +35,6 @@ TEST(CalibrationRecord, ReadsBackWhatWasWritten) {
   EXPECT_EQ(to_json_text(*read), to_json_text(record));
   EXPECT_TRUE(distance_to_record(RecordKind::calibration, read->calibration.scene, record.calibration.scene)
                   .inside());
-}
-
-TEST(CalibrationRecord, RefusesEveryEditedNumber) {
-  const nlohmann::ordered_json whole = nlohmann::ordered_json::parse(to_json_text(made_calibration()));
-  for (const auto& [key, value] : whole.items()) {
-    nlohmann::ordered_json edited = whole;
-    edited[key] = value.is_number() ? nlohmann::ordered_json(value.get<double>() * 1.0001 + 1e-9)
-                                    : nlohmann::ordered_json("edited");
-    EXPECT_FALSE(parse_calibration_record(edited.dump(), "calibration.json")) << key;
-  }
 }
 
 // Student's factor for 3 misfits, 95 % one-sided, is 2.353; they are 1, 2 and 2 K, 3 K squared on average.
@@ -162,15 +151,6 @@ TEST_F(StudyWithRecord, RefusesASceneThatStatesOtherConstants) {
       << read.error().message();
 }
 
-TEST_F(StudyWithRecord, LeavesAShapeThatTheStudyStates) {
-  write(made_calibration());
-  const auto read = study("[set]\nload.shape = \"power-exponential\"\n");
-  ASSERT_TRUE(read) << read.error().message();
-  EXPECT_EQ(read->scene.scene.load.shape, scene::LoadShape::power_exponential);
-  EXPECT_TRUE(distance_to_record(RecordKind::calibration, read->scene.scene, read->study.calibration.scene)
-                  .other_load_shape);
-}
-
 TEST_F(StudyWithRecord, RefusesAFitUncertaintyBelowThatOfTheRecord) {
   const CalibrationRecord record = made_calibration();
   write(record);
@@ -189,16 +169,6 @@ TEST_F(StudyWithRecord, RefusesConstantsInSetBesideIt) {
   const auto read = study("[set]\nfriction.localisation = 900\n");
   ASSERT_FALSE(read);
   EXPECT_NE(read.error().message().find("friction.localisation"), std::string::npos);
-}
-
-TEST_F(StudyWithRecord, DoesNotHoldForAnotherModel) {
-  write(made_calibration());
-  const auto read = study("[set]\ninterface.wall.friction = 0.3\n");
-  ASSERT_TRUE(read) << read.error().message();
-  const auto distance =
-      distance_to_record(RecordKind::calibration, read->scene.scene, read->study.calibration.scene);
-  ASSERT_FALSE(distance.foreign.empty());
-  EXPECT_EQ(distance.foreign.front().key, "calibration.interfaces");
 }
 
 TEST_F(StudyWithRecord, RefusesARecordWithoutConstants) {

@@ -153,9 +153,9 @@ TEST(CaseUncertainty, SilenceAboutTheInputsPropagatesAnAssumedSpread) {
                                 "numerical_uncertainty = { value = \"1 K\", because = \"for a test\" "
                                 "}\nfit_uncertainty = { value = \"2 K\", because = \"for a test\" }\n"),
                        options);
-  std::ranges::sort(peaks);  // the launch, without its muzzle exit, and raised
-  EXPECT_EQ(peaks, (std::vector<double>{496e6, 496e6, 1.04 * 496e6}));
-  EXPECT_EQ(result.timing.runs, 3u);
+  std::ranges::sort(peaks);  // the launch, and raised
+  EXPECT_EQ(peaks, (std::vector<double>{496e6, 1.04 * 496e6}));
+  EXPECT_EQ(result.timing.runs, 2u);
   const GapVerdict& row = result.details.at(0).verdicts.at(0);
   EXPECT_NEAR(row.uncertainty.input, std::hypot(0.0816 * 116.1, 12.0), 1e-2);
   EXPECT_GT(result.details[0].verdicts[1].uncertainty.input, row.uncertainty.input);  // hotter air too
@@ -236,20 +236,6 @@ TEST(CaseUncertainty, WhatSmoothingTakesFromThePeakCounts) {
   EXPECT_GT(under_load().uncertainty.load_curve, 2.0);
 }
 
-// A pulse of 496 MPa of which points a millisecond apart show 464 MPa: heat goes with the power 2 of its
-// peak.
-TEST(CaseUncertainty, ACoarseCurveMayHaveMissedItsPeak) {
-  scene::Load analytic, coarse;
-  const scene::PressureHistory pulse(analytic);
-  for (int i = 0; i <= 22; ++i) {
-    coarse.curve_time.push_back(1e-3 * i);
-    coarse.curve_pressure.push_back(pulse.at(1e-3 * i));
-  }
-  const double shown = std::ranges::max(coarse.curve_pressure) / analytic.peak;
-  EXPECT_LT(shown, 0.95);
-  EXPECT_GE(load_curve_share(coarse), std::pow(shown, -heat_exponent) - 1.0);
-}
-
 /// The constants of the 155 mm shell say nothing of another one, however small its own errors are.
 TEST(CaseUncertainty, AnotherShellIsIndeterminateUnlessItsSceneSaysWhyNot) {
   for (const std::string change :
@@ -283,7 +269,6 @@ TEST(CaseUncertainty, WhatOnlyAveragesOrRemovesHeatIsNeverSafe) {
     const GapVerdict& row = result.details.at(0).verdicts.at(0);
     EXPECT_EQ(row.judgement.verdict, Verdict::indeterminate) << change << reason_text(row);
     EXPECT_EQ(row.judgement.code, ReasonCode::optimistic) << change << reason_text(row);
-    EXPECT_NE(reason_text(row).find("only averages or removes heat"), std::string::npos) << reason_text(row);
   }
 }
 
@@ -297,8 +282,7 @@ TEST(CaseUncertainty, ColderConstantsOfTheSurfaceMakeNothingSafeThatTheCalibrate
   const std::vector<GapVerdict> own = rows_with("");
   for (const std::string change : {"friction.localisation = 700", "charge.specific_heat = \"4000 J/(kg K)\"",
                                    // Two constants of materials are accepted as one property.
-                                   "charge.specific_heat = \"2000 J/(kg K)\"\nsteel.density = \"8 g/cm3\"",
-                                   "gap.air_density = \"0.17 kg/m3\""}) {
+                                   "charge.specific_heat = \"2000 J/(kg K)\"\nsteel.density = \"8 g/cm3\""}) {
     const std::vector<GapVerdict> colder = rows_with(change + "\n");
     ASSERT_EQ(own.size(), colder.size());
     for (std::size_t i = 0; i < own.size(); ++i) {
@@ -336,27 +320,6 @@ TEST(CaseUncertainty, AGapThatIgnitesIsUnsafeWhateverNobodyAccepts) {
   EXPECT_EQ(outcome.critical.kind, CriticalGapKind::indeterminate);
   EXPECT_GT(outcome.critical.indicative, 0.0);
   EXPECT_LT(outcome.critical.indicative, 1e-3);
-}
-
-TEST(CaseUncertainty, AStudyWithoutVerdictsNeedsNoSecondRun) {
-  const StudyFile study = study_of(
-      "kind = \"sensitivity\"\nscene = \"scene_155mm.toml\"\ngaps = \"0.02 cm\"\nsamples = 16\n"
-      "vary = [{ key = \"friction.localisation\", distribution = \"uniform\", range = \"700 to 900\" }]\n");
-  const CaseAnswer answer =
-      answer_of(study.study, study.cases[0], quadratic_launch(study.cases[0].scene.scene));
-  EXPECT_EQ(answer.verdicts.at(0).uncertainty.fit, 0.0);
-  EXPECT_EQ(answer.critical.kind, CriticalGapKind::value) << text_of(answer.critical.reason);
-}
-
-TEST(CaseUncertainty, ASweepPropagatesTheSpreadToo) {
-  const std::string text =
-      critical_kind +
-      "numerical_uncertainty = { value = \"1 K\", because = \"for a test\" }\n"
-      "fit_uncertainty = { value = \"2 K\", because = \"for a test\" }\ngaps = \"0, 0.02 cm\"\n" +
-      vary({{"peak_pressure", "400, 496 MPa"}});
-  const CriticalGapResult result = run_critical_gap(lean_study_of(text), quadratic_options());
-  EXPECT_EQ(result.timing.runs, 4u);
-  EXPECT_NEAR(result.answers.at(1).verdicts.at(0).uncertainty.input, std::hypot(0.0816 * 116.1, 12.0), 1e-2);
 }
 
 }  // namespace

@@ -76,12 +76,4 @@ inline AccuracyRecord made_record() {
   return record;
 }
 
-/// The record with another digest, that of its text as it is now.
-inline std::string rehashed(const nlohmann::ordered_json& record) {
-  nlohmann::ordered_json content = record;
-  content.erase("digest");
-  content["digest"] = store::sha256(content.dump());
-  return content.dump(2) + "\n";
-}
-
 }  // namespace launchsafe::study

@@ -5,11 +5,11 @@
 #include "launchsafe/study/case_answer.hpp"
 #include "launchsafe/study/study_cases.hpp"
 #include "scene/perturbed_scenes.hpp"
+#include "scene/scene_text.hpp"
 #include "study/synthetic_launch.hpp"
 
 #include <algorithm>
 #include <string>
-#include <utility>
 #include <vector>
 
 namespace {
@@ -130,50 +130,6 @@ TEST(RecordDomain, ObservationPointsAreComparedAndVoidNothing) {
   ASSERT_EQ(found.size(), 1u);
   EXPECT_EQ(found.front().key.name, "observation_point");
   for (const RecordKind kind : kinds) EXPECT_FALSE(is_outside(kind, other));
-}
-
-/// Issue 32: records knew the first material of each law alone.
-TEST(RecordDomain, AWallOfAnotherSteelIsOutsideOfEveryRecord) {
-  for (const auto& key : scene::Steel::parameters()) {
-    for (const scene::Value& value : scene::other_values(key, key.get(own().scene.steel()))) {
-      scene::Scene other = own().scene;
-      scene::Steel steel = own().scene.steel();
-      key.set(steel, value);
-      if (same_value(key.get(steel), key.get(own().scene.steel()))) continue;
-      other.materials.push_back({"second", steel});
-      other.bodies[2].material = "second";
-      for (const RecordKind kind : kinds) EXPECT_TRUE(is_outside(kind, other)) << key.name;
-    }
-  }
-}
-
-/// What is accepted of one value is not of another one: the text that stands for a shell, a material or
-/// interfaces changes with each of them, and what it does not tell is accepted by itself.
-TEST(RecordDomain, AcceptsNothingButWhatIsNamed) {
-  std::vector<scene::Scene> others;
-  for (const auto& key : scene::scene_keys())
-    for (const scene::SceneFile& each : scene::perturbed(own(), key)) others.push_back(each.scene);
-  for (std::size_t i = 0; i < own().scene.bodies.size(); ++i) {
-    others.push_back(own().scene);
-    others.back().bodies[i].x_end -= 1e-3;
-  }
-  others.push_back(own().scene);
-  others.back().load.obturation = 0.2;
-  const auto foreign = [](const scene::Scene& scene) {
-    return distance_to_record(RecordKind::calibration, scene, own().scene).foreign;
-  };
-  std::vector<std::pair<scene::Scene, scene::Implausible>> all;
-  for (const scene::Scene& each : others)
-    for (const scene::Implausible& found : foreign(each)) all.emplace_back(each, found);
-  for (const auto& [unused, accepted] : all) {
-    for (auto [scene, found] : all) {
-      if (found.key != accepted.key) continue;
-      scene.accepted = {{accepted.key, accepted.value, "for a test of it"}};
-      for (const scene::Implausible& each : foreign(scene))
-        EXPECT_EQ(each.accepted(), each.key == accepted.key && each.value == accepted.value)
-            << accepted.key << " = " << accepted.value << " beside " << each.value;
-    }
-  }
 }
 
 }  // namespace

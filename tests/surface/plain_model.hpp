@@ -35,7 +35,7 @@ inline trace::BottomTrace smooth_launch(int intervals, int rows, double friction
     if (sample == 0) mean = pressure(0.0);
     trace.time.push_back(t);
     for (auto* values : {&trace.bottom_pressure, &trace.chamber_pressure}) values->push_back(pressure(t));
-    for (auto* values : {&trace.mean_bottom_pressure, &trace.mean_chamber_pressure}) values->push_back(mean);
+    trace.mean_bottom_pressure.push_back(mean);
     for (auto& closure : trace.friction) {
       for (std::size_t station = 0; station < trace.stations.size(); ++station) {
         const double share =

@@ -156,11 +156,10 @@ TEST(SkinHistory, ClosureThatWasNotTracedIsNoVerdict) {
 // Found by the property test of random scenes: a mean pressure of 0 had a relative spread of 0/0.
 TEST(SkinHistory, NoPressureAtAllLeavesAirAndSkinAsTheyWere) {
   trace::BottomTrace trace = smooth_launch(10, 1, 0.0);
-  for (auto* pressures : {&trace.chamber_pressure, &trace.mean_chamber_pressure})
+  for (auto* pressures : {&trace.bottom_pressure, &trace.mean_bottom_pressure})
     std::fill(pressures->begin(), pressures->end(), 0.0);
   SkinModel model = plain_model();
   model.kinetics.frequency = 0.0;
-  model.surface.air_pressure = scene::AirPressure::chamber;
   for (const double gap : {0.0, 3e-4}) {
     const SkinHistory history = integrate_skin(model, trace, gap);
     for (const double temperature : history.temperature) EXPECT_NEAR(temperature, 300.0, 1e-9);

@@ -82,11 +82,6 @@ struct Plausible {
   std::string because = {};             ///< a clause: why; where all is plausible, why that is
 };
 
-/// A word of an earlier version of the program, and the one that has taken its place.
-struct FormerWord {
-  std::string former, present;
-};
-
 /// All there is to say about a key, apart from where its value goes.
 struct KeyDescription {
   std::string name = {};  ///< dotted, such as "charge.crack_radius"
@@ -94,10 +89,7 @@ struct KeyDescription {
   Dimension dimension = Dimension::number;
   Limits limits = {};
   std::vector<std::string> words = {};  ///< of a word or of words: those that there are
-  /// Of a word: those of earlier versions. They are still read, and still written where a text is the
-  /// identity of what is stored (scene::exact_toml).
-  std::vector<FormerWord> former_words = {};
-  std::size_t list_length = 0;  ///< of a list that has a fixed one; 0: any
+  std::size_t list_length = 0;          ///< of a list that has a fixed one; 0: any
   Standing standing = Standing::assumed;
   std::string sentence = {};
   std::string example = {};                 ///< of a text, without quotation marks
@@ -409,11 +401,6 @@ inline auto overriding(std::vector<std::string> others) {
 template <class Condition>
 auto written_where(Condition condition) {
   return [condition = std::move(condition)]<class Owner>(Key<Owner>& key) { key.is_written = condition; };
-}
-
-/// Of a word: one had another name in earlier versions.
-inline auto formerly(FormerWord word) {
-  return [word = std::move(word)](KeyDescription& key) { key.former_words.push_back(word); };
 }
 
 /// Of a list: it may also be [].

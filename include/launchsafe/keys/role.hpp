@@ -62,7 +62,7 @@ struct Role {
 // Those that many inputs have.
 inline const Role remark{ActsOn::nothing, Part::free}, judged_elsewhere{ActsOn::mechanics, Part::free},
     of_combustion{ActsOn::combustion, Part::free}, over_range{ActsOn::mechanics, Part::range},
-    of_model{ActsOn::mechanics, Part::model}, of_skin_model{ActsOn::surface, Part::model},
+    of_model{ActsOn::mechanics, Part::model},
     vanishing_setting{ActsOn::numerics, Part::setting, {}, {.vanishes = true}},
     minor_setting{ActsOn::numerics, Part::minor_setting, {}, {.vanishes = true}};
 inline Role setting_exact_at(Value value) {

@@ -20,25 +20,13 @@ struct AccuracyVariant {
 struct AccuracySettings {
   std::vector<double> reference_cell_sizes;         ///< m, finest first once read; at least three
   std::vector<std::vector<SettingsAxis>> settings;  ///< every combination within each
-  std::vector<double> times;                        ///< s, at which temperatures are compared too
   std::vector<AccuracyVariant> variants;            ///< none for a file that is one study by itself
-};
-
-/// Pressure of the charge bottom over the launch.
-struct PressureTrace {
-  std::vector<double> time;      ///< s
-  std::vector<double> pressure;  ///< Pa
 };
 
 /// What the reference meshes tend to. T max and critical gap are those of the record: their limits may be off
 /// by what no mesh has exact.
 struct AccuracyReference : study::RecordedReference {
-  std::vector<bool> inert;              ///< for every gap: of a skin that does not react, since one ignites
-  study::ReferenceValue peak_pressure;  ///< Pa
-  std::vector<study::ReferenceValue> ignition_time;  ///< s, for every gap; no values where a mesh is safe
-  std::vector<study::ReferenceValue> at_times;       ///< K
-  std::vector<study::ReferenceValue> points;         ///< K, of every observation point
-  PressureTrace bottom;                              ///< of the finest mesh
+  std::vector<bool> inert;  ///< for every gap: of a skin that does not react, since one ignites
 };
 
 /// One setting: what its run came to, and how far that is from the reference. Errors are signed: this minus
@@ -46,14 +34,6 @@ struct AccuracyReference : study::RecordedReference {
 struct AccuracyRow {
   study::CaseAnswer answer;       ///< or why there are no numbers
   std::string validity_warnings;  ///< why its numbers are no basis for a verdict; empty for a sound run
-  double wall_time = 0;           ///< s
-  double particle_steps = 0;      ///< particles times steps
-  double memory = 0;              ///< bytes of particles, grid and histories, as planned
-  /// K, highest observation point at AccuracySettings::times, first gap, without reaction.
-  std::vector<double> at_times;
-  std::vector<study::StationTemperature> points;  ///< first gap, of a skin that does not react
-  double peak_pressure = 0;                       ///< Pa, largest of the bottom pressure
-  PressureTrace bottom;
   /// Its cost and, of T max and the critical gap, what is compared and the bounds of the error. The processor
   /// time is the wall time where the run did not note it.
   study::RecordedSetting setting;
@@ -64,15 +44,6 @@ struct AccuracyRow {
   std::vector<double> temperature_error;                   ///< K, for every gap
   double largest_temperature_error = study::not_a_number;  ///< K, absolute
   double critical_gap_error = study::not_a_number;         ///< m
-  double pressure_error = study::not_a_number;             ///< relative L2, against the finest mesh
-  double peak_pressure_error = study::not_a_number;        ///< relative
-  std::vector<double> ignition_time_error;                 ///< s, for every gap
-  std::vector<double> error_at_times;                      ///< K
-  bool on_front = false;  ///< no other setting is both cheaper and less wrong
-  /// K, by how much T max may be off; its distance from the reference alone where no bound is known.
-  double error_to_go_by() const {
-    return std::isfinite(setting.temperature_bound) ? setting.temperature_bound : largest_temperature_error;
-  }
   bool computed() const { return answer.completed(); }
   bool sound() const { return computed() && validity_warnings.empty(); }
 };
@@ -97,13 +68,6 @@ struct AccuracyResult : StudyResult {
   bool any_indeterminate() const;         ///< of any variant
 };
 
-/// Marks the rows that are no worse than all cheaper ones; of sound rows of the same model alone.
-void mark_front(std::vector<AccuracyRow>& rows);
-
-/// Relative L2 difference of two pressure histories over the shorter one: the root of int (p - q)^2 dt over
-/// int q^2 dt.
-double relative_difference(const PressureTrace& p, const PressureTrace& q);
-
 AccuracyResult run_accuracy(const study::StudyFile& study, const study::StudyOptions& options = {});
 /// How wrong the own setting of the first variant is, what the cheapest good settings are.
 std::string answer(const AccuracyResult& result);
@@ -111,14 +75,12 @@ report::Report report_of(const AccuracyResult& result);
 
 /// A row for every variant: how wrong its own setting is.
 report::Table variant_table(const AccuracyResult& result);
-/// A row for every setting, for every compared quantity, and for the T max of every station: of all variants
-/// that have a reference, with their names in front where there are several.
+/// A row for every setting, and for every compared quantity: of all variants that have a reference, with
+/// their names in front where there are several.
 report::Table setting_table(const AccuracyResult& result);
 report::Table reference_table(const AccuracyResult& result);
-report::Table point_table(const AccuracyResult& result);
 
-/// Error of T max against processor time: bound and distance, and the front of the settings that no other one
-/// beats, which alone are named.
+/// Distance of T max from its limit against processor time.
 report::Plot error_plot(const VariantAccuracy& variant);
 
 }  // namespace launchsafe::kinds

@@ -24,12 +24,9 @@ struct CalibrationRun : study::FinishedRun {
 
 /// What a study file of this kind says besides.
 struct CalibrationSettings {
-  std::vector<double> meshes;     ///< m, cell sizes; empty: the scene's
-  bool compare_kinetics = false;  ///< calibrate with every named kinetics, not only the scene's
-  double ignition_lowest = study::not_a_number;   ///< K, published bracket of the ignition temperature
-  double ignition_highest = study::not_a_number;  ///< K
-  bool load_fitted = false;  ///< the bell of the load is fitted to the calibrated rows too
-  std::string frozen_at;     ///< where rule and weights were settled before the fit, for people
+  std::vector<double> meshes;  ///< m, cell sizes; empty: the scene's
+  bool load_fitted = false;    ///< the bell of the load is fitted to the calibrated rows too
+  std::string frozen_at;       ///< where rule and weights were settled before the fit, for people
 };
 
 /// Puts constants into a scene or a model of its skin.
@@ -50,8 +47,6 @@ struct CalibrationTargets {
 /// Constants with how well they meet the rows they were fitted to.
 struct CalibratedConstants {
   SurfaceConstants constants;
-  double zero_gap_misfit = study::not_a_number;  ///< K, left over
-  double wide_gap_misfit = study::not_a_number;  ///< K, left over
   /// K, maximum temperatures without a trigger at the safe and the igniting gap: T1 is between them
   double ignition_lowest = study::not_a_number, ignition_highest = study::not_a_number;
   std::string failure;  ///< why there are none; empty when all went well
@@ -73,12 +68,8 @@ struct FittedLoad {
   /// Of the logarithms of study::fitted_keys, row by row. The weights count as standard deviations, and
   /// larger ones where the fit leaves more than them.
   std::vector<double> covariance;
-  std::optional<math::AddedUnknown> base;  ///< what load.base would do as a sixth unknown, Pa
-  std::size_t runs = 0;                    ///< mechanical runs that it took
-  std::string failure;                     ///< why there is none; empty when all went well
-  /// Standard deviation of the logarithm of one of the five; correlation of two.
-  double deviation(std::size_t i) const;
-  double correlation(std::size_t i, std::size_t j) const;
+  std::size_t runs = 0;  ///< mechanical runs that it took
+  std::string failure;   ///< why there is none; empty when all went well
 };
 
 /// A published number beside the computed one.
@@ -91,38 +82,18 @@ struct ComparedNumber {
   bool in_seconds = false;
   bool selects = false;  ///< counts among the misfits by which a model is chosen
   study::Use use = study::Use::held_out;
-  /// K, of a straight line over the gap through what is published of the two calibrated rows: the rival of
-  /// the model. NaN for what is fitted and for what is no temperature.
-  double line = study::not_a_number;
   double misfit() const { return computed - published; }
 };
 
-/// Where the maximum was computed and published.
-struct Placement {
-  std::string quantity;
-  double gap = 0;  ///< m
-  std::string computed, published;
-};
-
-/// One of the misfits by which a model is chosen among others.
-struct SelectionMisfit {
-  std::string quantity;
-  double misfit = study::not_a_number;  ///< K, computed minus published
-};
-
-/// One mesh with one friction closure and one kinetics.
+/// What was found on one mesh.
 struct CalibrationRow {
   double cell_size = 0;  ///< m
   scene::FrictionClosure closure = scene::FrictionClosure::total_strain_rate;
-  std::string kinetics;
-  bool calibratable = true;  ///< false for the closure "none", which has the scene's constants
   CalibratedConstants calibrated;
   std::vector<ComparedNumber> compared;
-  std::vector<Placement> placements;
-  std::vector<SelectionMisfit> selection;
-  double root_mean_square = study::not_a_number;            ///< K, over the temperatures that are not fitted
+  std::vector<double> selection;                  ///< K, misfits by which a model is chosen among others
+  double root_mean_square = study::not_a_number;  ///< K, over the temperatures that are not fitted
   double selection_root_mean_square = study::not_a_number;  ///< K, over `selection`; NaN without any
-  double spread_root_mean_square = study::not_a_number;     ///< K, over the spreads
   std::string failure;  ///< of the run or of the fit; empty when all went well
 };
 
@@ -135,21 +106,12 @@ struct MisfitBound {
 };
 MisfitBound misfit_bound(const CalibrationRow& row);
 
-/// How much a constant moves from the coarsest to the finest mesh.
-struct Convergence {
-  scene::FrictionClosure closure = scene::FrictionClosure::total_strain_rate;
-  std::string kinetics;
-  double localisation_change = study::not_a_number;  ///< (finest - coarsest)/finest
-  double exchange_time_change = study::not_a_number;
-};
-
 struct CalibrationResult : StudyResult {
   std::vector<CalibrationRun> runs;
-  std::optional<FittedLoad> load;      ///< where the study asks for one; all runs are under it
-  study::StationConvergence stations;  ///< around the recommended row
-  std::vector<CalibrationRow> rows;    ///< mesh by mesh, closure by closure, kinetics by kinetics
-  std::vector<Convergence> convergence;
-  std::optional<std::size_t> recommended_row;  ///< closure that misses least, on the mesh of the scene
+  std::optional<FittedLoad> load;              ///< where the study asks for one; all runs are under it
+  study::StationConvergence stations;          ///< around the recommended row
+  std::vector<CalibrationRow> rows;            ///< mesh by mesh
+  std::optional<std::size_t> recommended_row;  ///< on the mesh of the scene
   std::string reason;                          ///< what the evidence says
   SurfaceConstants in_scene;                   ///< what the scene file holds now
   /// The recommended row; nullptr without one.

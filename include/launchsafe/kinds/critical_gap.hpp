@@ -35,22 +35,11 @@ report::Table verdict_table(const CriticalGapResult& result);
 /// A row for every case: critical gap and bounds; in detail its confirmation, otherwise its place and run. A
 /// bound is text, never a number among values.
 report::Table critical_gap_table(const CriticalGapResult& result);
-/// The study's cited limits beside the critical gaps of its cases; without rows where it cites none.
-report::Table cited_limit_table(const CriticalGapResult& result);
-/// By how much each axis with several values changes T max and critical gap at most, and of the crack radius
-/// also below the flaw size; without rows where there is no such axis.
-report::Table axis_effect_table(const CriticalGapResult& result);
-
 /// Maximum temperature against gap with its uncertainty, the published rows by what they were used for, and
 /// of one case the fit and the critical gap with its uncertainty; of a study in detail.
 report::Plot temperature_plot(const CriticalGapResult& result);
 
-/// Critical gap over the axes that have several values: a curve over one, or maps over the first two, one for
-/// each combination of the others, and then the same less its uncertainty.
-struct GapPictures {
-  std::vector<report::Picture> pictures;
-  std::vector<std::string> remarks;  ///< values that have no line
-};
-GapPictures gap_pictures(const CriticalGapResult& result);
+/// Critical gap over one or two axes that have several values: lines along one, for some values of the other.
+std::optional<report::Picture> gap_picture(const CriticalGapResult& result);
 
 }  // namespace launchsafe::kinds

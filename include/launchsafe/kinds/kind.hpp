@@ -60,9 +60,6 @@ struct Kind {
   /// Throws what is wrong with them (src/kinds/study_keys.hpp).
   void (*make_cases)(const StudySource& source, study::StudyFile& study);
   StudyOutcome (*run)(const study::StudyFile& study, const study::StudyOptions& options);
-  /// Of its reports, besides report.md, study.json and those of tables: names, with "*" for what the study
-  /// decides.
-  std::vector<const char*> files;
   /// Its tables, without rows, of a study with the defaults: some columns depend on what it asks.
   std::vector<report::ReportTable> (*results)();
 };
@@ -96,9 +93,6 @@ inline const study::KindTraits& traits_of(std::string_view name) { return kind_n
 /// Runs a study as its kind asks.
 StudyOutcome run_study(const study::StudyFile& study, const study::StudyOptions& options);
 
-/// Whether a report of a study of that kind may have a file of that name, whatever the study says.
-bool may_write(const Kind& kind, std::string_view name);
-
 // --- a study from a file: what is asked of a scene, read and validated before anything is computed ---
 
 /// What the command line adds to a study file.
@@ -115,9 +109,6 @@ scene::Expected<study::StudyFile> read_study(const std::filesystem::path& file,
 /// The same from text; `file` is named in errors, and the scene is sought from its folder.
 scene::Expected<study::StudyFile> parse_study(std::string_view text, const std::filesystem::path& file,
                                               const StudyRequest& request = {});
-
-/// The published rows, [[reference]], of a file that studies name.
-scene::Expected<std::vector<study::Reference>> read_references(const std::filesystem::path& file);
 
 /// The keys of a study file and of its tables, "reference.gap" being that of one [[reference]], for
 /// documentation. Sentences end with the kinds that a key belongs to, unless it belongs to all.

@@ -7,12 +7,6 @@
 
 namespace launchsafe::kinds {
 
-/// How indices of first and total order follow from evaluations.
-enum class SensitivityMethod {
-  sobol,            ///< differences (Saltelli 2010, Jansen 1999): samples x (inputs + 2) evaluations
-  polynomial_chaos  ///< a polynomial that is fitted to the samples
-};
-
 /// The constants of a calibration among the inputs. They vary together: their logarithms are normal, with the
 /// covariance of its fit.
 struct CalibratedInputs {
@@ -22,14 +16,9 @@ struct CalibratedInputs {
 
 /// What a study file of this kind says besides; its inputs are Study::axes, with distributions.
 struct SensitivitySettings {
-  SensitivityMethod method = SensitivityMethod::sobol;
-  math::Design design = math::Design::latin_hypercube;
-  int samples = 64;        ///< N: rows of the matrices A and B, or evaluations that are fitted
+  int samples = 64;        ///< of the inputs, to which a polynomial is fitted
   std::uint64_t seed = 1;  ///< of design and bootstrap
-  int resamples = 1000;    ///< of the bootstrap
-  double confidence = 0.95;
   std::optional<CalibratedInputs> calibrated = {};
-  math::SobolOptions bootstrap() const { return {confidence, static_cast<std::size_t>(resamples), seed}; }
 };
 
 /// What has indices of its own: an axis, or all constants of a calibration, as indices need independent
@@ -38,15 +27,6 @@ struct SensitivityInput {
   std::size_t first = 0, count = 1;  ///< among Study::axes
 };
 std::vector<SensitivityInput> inputs_of(const study::Study& study);
-
-/// Whether the indices are those of a fit.
-inline bool is_by_fit(const study::Study& study) {
-  return settings_of<SensitivitySettings>(study).method == SensitivityMethod::polynomial_chaos;
-}
-
-/// Whether an evaluation is a draw from the distributions of the inputs, rather than one made for
-/// differences: the blocks A and B of a Saltelli design, and all that a polynomial is fitted to.
-bool samples_inputs(const study::Study& study, std::size_t evaluation);
 
 /// One output of a case as a number.
 enum class SensitivityOutput {
@@ -66,9 +46,9 @@ struct OutputSensitivity {
   std::size_t missing = 0;  ///< evaluations without a number: failed runs, or a critical gap that is a bound
   std::size_t bounds = 0;   ///< of these, critical gaps that are bounds
   double mean = study::not_a_number,
-         deviation = study::not_a_number;         ///< over the evaluations that sample the inputs
+         deviation = study::not_a_number;         ///< over the evaluations
   math::SobolIndices sobol;                       ///< where there are indices, of every input
-  std::optional<math::PolynomialChaos> fit = {};  ///< of a study by fit
+  std::optional<math::PolynomialChaos> fit = {};  ///< none where an evaluation has no number
   /// Why there are no indices, fit, mean and deviation: an evaluation without a number, or what they say
   /// themselves. Empty where there are.
   std::string reason;
@@ -87,16 +67,14 @@ std::string answer(const SensitivityResult& result);
 /// Nothing in it differs between two runs of a study: no times, rates, dates or hosts.
 report::Report report_of(const SensitivityResult& result);
 
-/// A row for every input: its distribution, and indices with their intervals. Method, N, design, seed and
-/// confidence are in the notes; so is the reason where an output has no indices. The second has all outputs
-/// below each other, for other programs.
-report::Table sensitivity_table(const SensitivityResult& result, const OutputSensitivity& output);
+/// A row for every input of every output: its distribution, and indices with their intervals, or the reason
+/// where there are none. The method is in the notes.
 report::Table sensitivity_table(const SensitivityResult& result);
 /// A row for every output, and for every evaluation: its inputs, outputs and failure.
 report::Table output_table(const SensitivityResult& result);
 report::Table evaluation_table(const SensitivityResult& result);
 
-/// First and total order of every input with their intervals.
+/// Total order of every input with its interval.
 report::Plot sensitivity_plot(const SensitivityResult& result, const OutputSensitivity& output);
 
 }  // namespace launchsafe::kinds

@@ -32,14 +32,12 @@ struct CompletedRun {
 
 /// What a computation that completed must fulfil.
 struct Invariant {
-  std::string name;   ///< in study files: "friction-heat"
-  std::string words;  ///< what it says, for people
+  std::string name, words;  ///< for people: "friction-heat", and what it says
   /// Adds how a launch, or what burnt, violates it, a sentence each; not checked where there is no function.
   void (*of_launch)(const CompletedRun& run, Sentences& violations) = nullptr;
   void (*of_burn)(const CompletedRun& run, Sentences& violations) = nullptr;
 };
 const std::vector<Invariant>& all_invariants();
-std::vector<std::size_t> places_of_all_invariants();  ///< 0, 1, ...
 
 /// One case of a stability study: a launch that is extreme, or whose computation is, and what must hold.
 struct StressCase {
@@ -48,8 +46,7 @@ struct StressCase {
   std::string refused;            ///< a case of the reader: what it must say of the scene; else empty
   std::string refusal;            ///< what the reader said; empty where it took the scene
   std::vector<Outcome> expected;  ///< acceptable ones; empty: anything but WRONG
-  std::vector<std::size_t> invariants = places_of_all_invariants();  ///< of all_invariants()
-  double numerical_uncertainty = study::not_a_number;                ///< K, of T max; NaN: the study's
+  double numerical_uncertainty = study::not_a_number;  ///< K, of T max; NaN: the study's
   /// Steps within which a broken computation must be caught; 0: any number.
   std::uint64_t caught_within = 0;
   std::vector<double> gaps;            ///< m, to judge; all on one run
@@ -57,7 +54,6 @@ struct StressCase {
   std::optional<std::size_t> against;  ///< of StudyFile::cases: a safe computation of the same launch
 
   std::string label() const { return group + ": " + name; }
-  bool has(std::string_view invariant) const;
   bool expects(Outcome outcome) const;
 };
 
@@ -66,9 +62,9 @@ struct StabilitySettings {
   std::vector<StressCase> cases;  ///< in the order written; their runs are among the cases
 };
 
-/// How a run violates the invariants of its case, a sentence each; none for a sound one. All but the same
-/// temperature, which takes two runs.
-Sentences violations_of(const CompletedRun& run, const StressCase& asked);
+/// How a run violates the invariants, a sentence each; none for a sound one. All but the same temperature,
+/// which takes two runs.
+Sentences violations_of(const CompletedRun& run);
 
 /// A stress case and what became of it.
 struct StressCaseRow {

@@ -1,8 +1,8 @@
 // A particle of the charge that burns: what is left of the explosive and the gas that the rest has become, at
 // one pressure.
 //
-// The flame is far thinner than a particle, so that a particle has both in parts of their own: the explosive
-// on its isentrope (unreacted.hpp), which a flame that passes in microseconds does not heat, and the gas
+// The skin that burns is thinner than a particle, so that a particle has both in parts of their own: the
+// explosive on its isentrope (unreacted.hpp), which burning in microseconds does not heat, and the gas
 // with its own temperature (vlw.hpp). Sound crosses the particle within a step or two, so that the
 // pressures are equal; heat does not cross it, so that the temperatures are not.
 #pragma once

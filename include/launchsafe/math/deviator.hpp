@@ -1,12 +1,12 @@
-// Symmetric trace-free tensors of a body that is axisymmetric or in plane strain.
+// Symmetric trace-free tensors of an axisymmetric body.
 #pragma once
 
 #include "launchsafe/math/pack.hpp"
 
 namespace launchsafe::math {
 
-/// A deviator with the components rr, xx and rx; the hoop component is tt = -(rr + xx). In plane strain read
-/// y for r and z for the hoop direction. The unit is that of what it holds (Pa, 1/s, or 1).
+/// A deviator with the components rr, xx and rx; the hoop component is tt = -(rr + xx). The unit is that of
+/// what it holds (Pa, 1/s, or 1).
 template <class Real>
 struct Deviator {
   Real rr{0.0}, xx{0.0}, rx{0.0};

@@ -67,20 +67,12 @@ class SplitMix64 {
   std::uint64_t count_ = 0;
 };
 
-/// How points are laid out on the unit cube.
-enum class Design {
-  monte_carlo,      ///< independent points
-  latin_hypercube,  ///< every coordinate has one point in each of the equal intervals
-  scrambled_sobol,  ///< Sobol's sequence (direction numbers of Joe and Kuo 2008) under Owen's nested scramble
-};
-
 /// `points` points (below 2^32) of the unit cube, row by row, every coordinate inside the open interval
-/// (0, 1): a pure function of its arguments, the same to the last bit on every machine. Each point by itself
-/// is uniform over seeds. The first points of a longer monte_carlo or scrambled_sobol design of the same seed
-/// are the shorter design; a Latin hypercube changes with its size. Sobol's sequence balances best at a power
-/// of two points and throws std::invalid_argument beyond 3667 dimensions.
-std::vector<double> unit_points(Design design, std::size_t points, std::size_t dimensions,
-                                std::uint64_t seed);
+/// (0, 1): Sobol's sequence (direction numbers of Joe and Kuo 2008) under Owen's nested scramble. A pure
+/// function of its arguments, the same to the last bit on every machine. Each point by itself is uniform over
+/// seeds. The first points of a longer design of the same seed are the shorter design. It balances best at a
+/// power of two points and throws std::invalid_argument beyond 3667 dimensions.
+std::vector<double> unit_points(std::size_t points, std::size_t dimensions, std::uint64_t seed);
 
 /// One of points that lie row by row.
 std::vector<double> point_of_row(const std::vector<double>& points, std::size_t row, std::size_t dimensions);

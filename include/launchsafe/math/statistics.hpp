@@ -23,23 +23,16 @@ struct Moments {
 Moments moments_of(const std::vector<double>& values);
 
 /// Ordinary least squares y = sum_k coefficient_k x_k + error, errors independent with one unknown variance.
-/// With no degrees of freedom left the fit goes through all points and every uncertainty is NaN.
+/// With no degrees of freedom left the fit goes through all points and the deviation is NaN.
 struct LeastSquares {
-  std::vector<double> coefficients;     ///< unit of y over unit of the regressor
-  std::vector<double> standard_errors;  ///< of the coefficients
-  std::vector<double> residuals;        ///< y - fit, in the order of the data
-  std::vector<double> inverse_normal;   ///< (X^T X)^-1, row by row
-  double residual_deviation = 0;        ///< s = sqrt(sum residual^2 / degrees_of_freedom), unit of y
-  double r_squared = 0;                 ///< 1 - residual/total sum of squares about the mean
-  int degrees_of_freedom = 0;           ///< observations minus coefficients
+  std::vector<double> coefficients;    ///< unit of y over unit of the regressor
+  std::vector<double> residuals;       ///< y - fit, in the order of the data
+  std::vector<double> inverse_normal;  ///< (X^T X)^-1, row by row
+  double residual_deviation = 0;       ///< s = sqrt(sum residual^2 / degrees_of_freedom), unit of y
+  int degrees_of_freedom = 0;          ///< observations minus coefficients
 
   /// Fitted value at the regressors `row` (one value per coefficient).
   double at(const std::vector<double>& row) const;
-  /// Half width of the two-sided band of one new observation at confidence `level` in (0, 1) (Student t).
-  double prediction_half_width(const std::vector<double>& row, double level) const;
-  /// x^T (X^T X)^-1 x, of a row that was fitted how far its own value draws the fit: residual/(1 - leverage)
-  /// is what it is off a fit through the other rows alone.
-  double leverage(const std::vector<double>& row) const;
 };
 
 /// Fits y on the rows of regressors. Nothing where the sizes differ, a number is not finite, there are fewer
@@ -47,23 +40,12 @@ struct LeastSquares {
 std::optional<LeastSquares> least_squares(const std::vector<std::vector<double>>& rows,
                                           const std::vector<double>& y);
 
-/// The row (1, x, ..., x^degree).
-std::vector<double> polynomial_row(double x, int degree);
-
 /// Straight line y = coefficients[0] + coefficients[1] x.
 std::optional<LeastSquares> fit_line(const std::vector<double>& x, const std::vector<double>& y);
 
 /// Student's factor: with probability `level` a further value, of a population about 0 of whose values n >= 1
 /// have a root mean square s, is below the factor times s. One-sided; NaN otherwise.
 double one_sided_student_factor(int n, double level);
-
-struct Interval {
-  double lower, upper;
-};
-
-/// Interval that holds a probability with at least the probability `level`, of which `count` of `trials` >= 1
-/// independent trials gave evidence (Clopper and Pearson, Biometrika 26, 1934); two-sided.
-Interval clopper_pearson(std::size_t count, std::size_t trials, double level);
 
 /// Discretisation uncertainty from three systematically refined meshes (Celik et al., J. Fluids Eng. 130,
 /// 2008).
@@ -124,13 +106,5 @@ struct NonlinearFit {
 /// of squares, or of the unknowns. `singular` where the condition is above 1e6: the residuals do not
 /// determine all unknowns.
 NonlinearFit fit_nonlinear(const ResidualsAtPoints& residuals, const std::vector<double>& start, double step);
-
-/// What one more unknown would do to a fit, to first order.
-struct AddedUnknown {
-  double change = 0;  ///< of that unknown
-  double gain = 0;    ///< by which the sum of squares falls, >= 0
-};
-/// `column`: derivative of the residuals with respect to it. Nothing where the others can replace it.
-std::optional<AddedUnknown> add_unknown(const NonlinearFit& fit, const std::vector<double>& column);
 
 }  // namespace launchsafe::math

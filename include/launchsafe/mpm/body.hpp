@@ -16,7 +16,7 @@ namespace launchsafe::mpm {
 /// One of them.
 struct BurningParticle {
   std::size_t slot = 0;
-  double rest_volume = 0;  ///< m3 per radian or metre
+  double rest_volume = 0;  ///< m3 per radian
   materials::BurningState state;
   double to_burn = 0;       ///< share of its mass that burns in the next step
   double to_add = 0;        ///< J/kg of the particle, thermal, from 0 K, that the gas from that gets
@@ -100,7 +100,7 @@ struct ParticleFields {
   int body = 0;                               ///< index into Scene::bodies
   math::AlignedArray x, r;                    ///< m
   math::AlignedArray velocity_x, velocity_r;  ///< m/s
-  math::AlignedArray mass;                    ///< kg per radian, or per metre of depth
+  math::AlignedArray mass;                    ///< kg per radian
   math::AlignedArray inertia_x, inertia_r;    ///< the same with the inertial factors: what resists forces
   math::AlignedArray volume_ratio;            ///< V, the volume over that at rest
   math::AlignedArray pressure;                ///< Pa, compression positive
@@ -147,7 +147,7 @@ AnyBody make_body(const scene::Scene& scene, int body);
 
 const ParticleFields& particle_fields_of(const AnyBody& body);
 
-/// Sum of the particle masses, kg of the whole shell (2 pi radians) or per metre of depth.
-double mass_of(const ParticleFields& particles, scene::Symmetry symmetry);
+/// Sum of the particle masses, kg of the whole shell (2 pi radians).
+double mass_of(const ParticleFields& particles);
 
 }  // namespace launchsafe::mpm

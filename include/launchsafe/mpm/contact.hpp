@@ -1,7 +1,7 @@
 // Contact of faces that can separate and slide: one stage of the total-Lagrangian step, beside the ties.
 //
 // The stage follows the free motion of all nodes. Every node of the charge's face has two impulses (kg m/s
-// per radian or metre), one along the normal of the face and one along the face. They act on this node and,
+// per radian), one along the normal of the face and one along the face. They act on this node and,
 // with the opposite sign, on the nodes of the other face that `pair_faces` pairs it with. The normal
 // impulse is the smallest one >= 0 with which the gap at the end of the step is >= 0. The impulse along the
 // face stops the sliding, or is the coefficient of friction times the normal impulse of the same step where
@@ -38,9 +38,8 @@ struct FaceLine {
   std::vector<double> along, across;
 };
 
-/// What an area is made of along a face: of unit depth, or of a ring, with the radius across or along the
-/// face.
-enum class FaceMeasure { unit_depth, radius_across, radius_along };
+/// Whether the radius, which an area is made of, is across or along the face.
+enum class FaceMeasure { radius_across, radius_along };
 
 /// A node and its share in the relative displacement of a row, other face less own face.
 struct PairShare {
@@ -51,8 +50,8 @@ struct PairShare {
 /// The pairing of one node of the own face. Shares of the own face and of the other one sum to 1 each.
 struct PairRow {
   std::vector<PairShare> own, other;
-  double area =
-      0;  ///< m2 per radian or per metre, over which the node's traction acts; 0: it is paired with no node
+  /// m2 per radian, over which the node's traction acts; 0: it is paired with no node
+  double area = 0;
   double slope = 0;  ///< d across / d along of the other face there
 };
 
@@ -67,7 +66,7 @@ void pair_faces(const FaceLine& own, const FaceLine& other, FaceMeasure measure,
 /// A node of a face that can slide, for reports and tests. Tractions are those of the last step.
 struct FaceState {
   double place = 0;          ///< m, at rest: x along a side, r along an end
-  double area = 0;           ///< m2 per radian or metre, 0 where it meets nothing
+  double area = 0;           ///< m2 per radian, 0 where it meets nothing
   double gap = 0;            ///< m
   double pressure = 0;       ///< Pa, compression positive
   double shear = 0;          ///< Pa, on the other body: along x on a side, along r on an end
@@ -99,7 +98,7 @@ class Contact {
   bool is_along_x(std::size_t face) const { return faces_[face].along_x; }
   /// m, at rest: r of a side, x of an end.
   double face_at(std::size_t face) const { return faces_[face].own.across_rest; }
-  /// Work of friction on a face since the start, J per radian or metre, turned into heat.
+  /// Work of friction on a face since the start, J per radian, turned into heat.
   double friction_work(std::size_t face) const;
   std::vector<FaceState> state_of(std::size_t face) const;
 

@@ -17,7 +17,7 @@ inline void store(math::AlignedArray& field, std::size_t slot, Pack value) {
 /// Deformation increment of a step at a Pack of particles.
 struct Deformation {
   materials::Increment<Pack> increment;
-  Pack rest_volume;  ///< m3 per radian or metre
+  Pack rest_volume;  ///< m3 per radian
 };
 
 /// Cauchy stress at the end of a step, Pa: deviator tension positive, pressure compression positive.
@@ -71,7 +71,7 @@ template <class Law>
 }
 
 /// `update_material` of a Pack of particles some of which burn: the law sees the explosive that is left,
-/// whose stress counts with its part of the volume. The flame is parallel to the charge's bottom, so that the
+/// whose stress counts with its part of the volume. The skin is parallel to the charge's bottom, so that the
 /// gas is a layer across x: the strain of the explosive is that of the particle less what the layer grows
 /// along x. Arguments by value, so that the step of others need not keep them in memory.
 template <class Law>

@@ -14,7 +14,7 @@ struct NodeSums {
   math::AlignedArray force_x, force_r;        ///< N, internal
 };
 
-/// Nodal fields of one body; row j of nodes begins at j * stride. Per radian or per metre of depth.
+/// Nodal fields of one body; row j of nodes begins at j * stride. Per radian.
 struct Nodes {
   int body = 0;                             ///< index into Scene::bodies
   int columns = 0, rows = 0;                ///< of nodes

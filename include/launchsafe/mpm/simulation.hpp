@@ -6,7 +6,7 @@
 
 namespace launchsafe::mpm {
 
-/// Energy balance since the start, J per radian (axisymmetric) or per metre of depth.
+/// Energy balance since the start, J per radian.
 struct EnergyTotals {
   /// Of the motion relative to the mass centre, with scaled inertia, centred in time: velocities are half a
   /// step away from stresses (leapfrog), and m v_old v_new/2 is what the discrete work balances.
@@ -28,16 +28,10 @@ struct EventCounts {
 
 class Simulation {
  public:
-  /// `threads` work on each step together where the form can; results do not depend on their number.
-  explicit Simulation(scene::Scene scene, int threads = 1);
+  explicit Simulation(scene::Scene scene);
   // The formulation holds references to the bodies.
   Simulation(const Simulation&) = delete;
   Simulation& operator=(const Simulation&) = delete;
-
-  /// Takes over the state of another simulation of the same mechanics, total-Lagrangian: the same bodies,
-  /// mesh, interfaces and laws but for what acts through heat alone. What follows is bitwise what would have
-  /// followed there.
-  void continue_from(const Simulation& other);
 
   /// Stable time step (s) for the present state.
   double stable_time_step() const;
@@ -50,12 +44,11 @@ class Simulation {
   /// The balance at the begin of the last step, where all its parts are known at one time.
   const EnergyTotals& energy() const { return balance_; }
   const EventCounts& events() const { return events_; }
-  /// Axial momentum relative to the frame, kg m/s per radian or metre, with the inertial factors that are not
-  /// common to all: what no forces between particles change.
+  /// Axial momentum relative to the frame, kg m/s per radian, with the inertial factors that are not common
+  /// to all: what no forces between particles change.
   double axial_momentum() const;
   /// Particles that carry mass.
   std::uint64_t particles() const { return particles_; }
-  bool axisymmetric() const { return scene_.symmetry == scene::Symmetry::axisymmetric; }
 
   /// In the order of Scene::bodies.
   std::vector<AnyBody>& bodies() { return bodies_; }
@@ -110,8 +103,8 @@ class Simulation {
   scene::PressureHistory load_;
   std::vector<AnyBody> bodies_;
   std::variant<std::monostate, TotalLagrangian, UpdatedLagrangian> form_;
-  double total_mass_ = 0;   ///< kg per radian or metre
-  double loaded_area_ = 0;  ///< m2 per radian or metre
+  double total_mass_ = 0;   ///< kg per radian
+  double loaded_area_ = 0;  ///< m2 per radian
   double time_ = 0;
   double pressure_ = 0;  ///< Pa, in the chamber at the present time
   std::uint64_t particles_ = 0;

@@ -17,7 +17,7 @@ struct StepInput {
   double pic_fraction = 0;    ///< fraction of the grid velocity in the particle velocity
 };
 
-/// Sums over particles: energies (J per radian, or per metre of depth) and limiter events (particle-steps).
+/// Sums over particles: energies (J per radian) and limiter events (particle-steps).
 struct ParticleTotals {
   Pack internal{0.0}, hourglass{0.0}, plastic{0.0}, viscous{0.0}, crack{0.0}, pic_loss{0.0},
       centred_kinetic{0.0};
@@ -28,7 +28,7 @@ struct ParticleTotals {
   void add(const ParticleTotals& other);
 };
 
-/// Sums over nodes: energies (J per radian or metre) and momenta (kg m/s per radian or metre).
+/// Sums over nodes: energies (J per radian) and momenta (kg m/s per radian).
 struct NodeTotals {
   Pack damping{0.0};            ///< taken out by damping in the step
   Pack lost_before{0.0};        ///< total-Lagrangian: taken out by damping and FLIP until the step's begin
@@ -39,7 +39,7 @@ struct NodeTotals {
   void add(const NodeTotals& other);
 };
 
-/// Sums over contact of faces that can slide, per radian or per metre of depth.
+/// Sums over contact of faces that can slide, per radian.
 struct ContactTotals {
   double loss = 0;           ///< J, taken out by contact until the step's begin
   double way_back_loss = 0;  ///< J, correction of NodeTotals::lost_before, which is computed without contact
@@ -49,7 +49,7 @@ struct ContactTotals {
 /// Axial motion of the centre of the inertial masses, on which forces act. It is not the centre of the true
 /// masses where the inertia of some particles is scaled more than that of others.
 struct BulkMotion {
-  double inertia = 0;       ///< kg per radian or metre
+  double inertia = 0;       ///< kg per radian
   double old_momentum = 0;  ///< kg m/s, at the begin of the step
   double momentum = 0;      ///< kg m/s, with the velocity that the step moves by
 };

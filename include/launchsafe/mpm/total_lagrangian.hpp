@@ -11,7 +11,6 @@
 
 #include "launchsafe/mpm/body.hpp"
 #include "launchsafe/mpm/contact.hpp"
-#include "launchsafe/mpm/team.hpp"
 #include "launchsafe/scene/load.hpp"
 
 #include <memory>
@@ -21,30 +20,23 @@ namespace launchsafe::mpm {
 /// Constant weights of one row of particles on the node rows towards the axis (0) and away from it (1).
 struct RowWeights {
   int cell_row = 0;
-  double value[2] = {0,
-                     0};  ///< mean of the hat function over the particle, weighted with r where axisymmetric
-  double hoop[2] = {0, 0};    ///< mean of N/r, 1/m; 0 in plane strain
+  double value[2] = {0, 0};   ///< mean of the hat function over the particle, weighted with r
+  double hoop[2] = {0, 0};    ///< mean of N/r, 1/m
   double inverse_length = 0;  ///< 1/m, of the cell along r
 };
 
 class TotalLagrangian {
  public:
   /// Holds references to scene and bodies, which must outlive it at the same address.
-  TotalLagrangian(const scene::Scene& scene, std::vector<AnyBody>& bodies, int threads);
-  TotalLagrangian(const scene::Scene&& scene, std::vector<AnyBody>& bodies, int threads) = delete;
+  TotalLagrangian(const scene::Scene& scene, std::vector<AnyBody>& bodies);
+  TotalLagrangian(const scene::Scene&& scene, std::vector<AnyBody>& bodies) = delete;
 
-  /// Takes over the state of another computation of the same bodies on the same lattice. The particles are
-  /// the caller's to copy.
-  void continue_from(const TotalLagrangian& other);
   /// Recomputes the nodal momenta and velocities from the particles, after velocities were set.
   void reset_grid();
   /// Largest stable step (s): CFL times the smallest height of a cell, as it is deformed, over the sound
   /// speed in it, with the inertial factors.
   double stable_time_step() const;
   StepTotals step(const StepInput& input);
-
-  /// Processor time (s) of the threads beside the caller's.
-  double helpers_processor_time() const { return team_->helpers_processor_time(); }
 
   const std::vector<Nodes>& nodes() const { return nodes_; }
   /// Forces that are added to `Nodes::written` before a step act in it; the ledger does not know their work.
@@ -65,11 +57,6 @@ class TotalLagrangian {
   struct CellRates {
     double stretch_x, shear_x, stretch_r, shear_r;
   };
-  /// Rows of one body that a thread works through.
-  struct Rows {
-    std::size_t body;
-    int begin, end;
-  };
   /// Force of the chamber pressure on one node, along x or r: N per Pa.
   struct LoadShare {
     std::size_t body;
@@ -83,33 +70,27 @@ class TotalLagrangian {
   template <class F>
   void for_each_cell(F&& f);
   void sum_nodal_masses();
-  void share_work();
   void load_across(const scene::ChamberFace& face);
   void load_along(const scene::ChamberFace& face);
   void load_nodes(const StepInput& input);
   double chamber_flow() const;
   void move_row(Nodes& nodes, int row, const StepInput& input, NodeTotals& totals) const;
-  void advance_rows(const Rows& rows, const StepInput& input);
-  void apply_contact(const StepInput& input);
+  void advance_body(std::size_t index, const StepInput& input);
   void run_phases(const StepInput& input);
 
   const scene::Scene& scene_;
   std::vector<AnyBody>& bodies_;
-  bool axisymmetric_;
   scene::GridLines lines_;
   std::vector<Nodes> nodes_;  ///< by body
   std::vector<Part> parts_;   ///< by body
-  double inertia_ = 0;        ///< kg per radian or metre, of all bodies
+  double inertia_ = 0;        ///< kg per radian, of all bodies
   std::vector<Tie> ties_;
   std::vector<LoadShare> axial_load_, radial_load_;
   std::unique_ptr<Contact> contact_;
   ContactTotals contact_totals_;                              ///< of the step
-  std::vector<std::vector<Rows>> particle_rows_, node_rows_;  ///< by thread
   std::vector<std::vector<ParticleTotals>> particle_totals_;  ///< by body and row
   std::vector<std::vector<NodeTotals>> node_totals_;          ///< by body and row
   double damped_before_ = 0;                                  ///< 1/damping_factor - 1 of the last step
-  std::unique_ptr<Team> team_;
-  ThreadingChoice threading_choice_;
 };
 
 }  // namespace launchsafe::mpm

@@ -15,15 +15,14 @@ using math::Pack;
 
 // The background grid: a regular lattice of nodes, x fastest, rebuilt every step.
 
-/// Node (i, j) lies at x = origin_x + i dx, r = (j - radial_padding) dr. Masses and forces are per radian
-/// (axisymmetric) or per metre of depth (plane strain).
+/// Node (i, j) lies at x = origin_x + i dx, r = (j - radial_padding) dr. Masses and forces are per radian.
 struct Grid {
   static constexpr int axial_padding = 12;  ///< cells beyond the shell: a Pack may read past a body's end
   static constexpr int radial_padding = 1;
 
   int nodes_x = 0, nodes_r = 0;
   double dx = 0, dr = 0;             ///< m
-  double origin_x = 0;               ///< m; moves by whole cells with the co-moving grid
+  double origin_x = 0;               ///< m; follows the charge's bottom
   math::AlignedArray radially_free;  ///< 1 where v_r is free, 0 on the axis and at the barrel
 
   // Sums over the particles, from the last step on.
@@ -69,7 +68,7 @@ AxialWeights<Real> axial_weights(Real position, double half, double cell) {
           {slope - Real(1.0 / cell), Real(1.0 / cell) - Real(2.0) * slope, slope}};
 }
 
-/// As above with the weight r; `hoop` (1/m) is the mean of N/r. In plane strain `hoop` is 0.
+/// As above with the weight r; `hoop` (1/m) is the mean of N/r.
 template <class Real>
 struct RadialWeights {
   Real value[3];
@@ -120,7 +119,6 @@ struct StencilContext {
   const Grid& grid;
   double origin_x;        ///< of the window, m; differs between reading and writing when the window moves
   double half_x, half_r;  ///< m
-  bool axisymmetric;
 };
 
 /// Weights of a Pack of particles, and the first node of each.
@@ -159,22 +157,10 @@ inline Stencil stencil_of(const StencilContext& context, Pack x, Pack r) {
   // Radial coordinates count from the padding row below r = 0.
   const double padding = Grid::radial_padding;
   const int highest = grid.nodes_r - 3;
-  CellPosition radial;
-  if (context.axisymmetric) {
-    const auto interval = cut_at_axis(r, context.half_r);
-    radial =
-        locate((interval.centre - interval.half) * (1.0 / grid.dr) + padding, Grid::radial_padding, highest);
-    stencil.radial = axisymmetric_weights(interval, (to_pack(radial.cell) - padding) * grid.dr, grid.dr);
-  } else {
-    radial = locate((r - context.half_r) * (1.0 / grid.dr) + padding, 0, highest);
-    const auto planar =
-        axial_weights(r - (to_pack(radial.cell) - padding) * grid.dr, context.half_r, grid.dr);
-    for (int k = 0; k < 3; ++k) {
-      stencil.radial.value[k] = planar.value[k];
-      stencil.radial.gradient[k] = planar.gradient[k];
-      stencil.radial.hoop[k] = Pack(0.0);
-    }
-  }
+  const auto interval = cut_at_axis(r, context.half_r);
+  const CellPosition radial =
+      locate((interval.centre - interval.half) * (1.0 / grid.dr) + padding, Grid::radial_padding, highest);
+  stencil.radial = axisymmetric_weights(interval, (to_pack(radial.cell) - padding) * grid.dr, grid.dr);
   stencil.first = radial.cell * static_cast<std::int64_t>(grid.nodes_x) + axial.cell - math::lane_numbers;
   stencil.inside = axial.inside & radial.inside;
   return stencil;
@@ -262,7 +248,7 @@ inline GridToParticle grid_to_particle(const Grid& grid, const Stencil& stencil,
 /// Particle-to-grid contribution of a Pack of particles.
 struct ParticleToGrid {
   Pack mass, velocity_x, velocity_r;                ///< kg, m/s
-  Pack volume;                                      ///< m3 per radian, or per metre of depth
+  Pack volume;                                      ///< m3 per radian
   Pack stress_rr, stress_xx, stress_tt, stress_rx;  ///< Cauchy, tension positive, Pa
 };
 

@@ -30,15 +30,15 @@ class UpdatedLagrangian {
   struct LoadedFace {
     const ParticleFields* body;
     std::size_t slot;
-    double area;  ///< m2 per radian or metre, of the particle at rest
+    double area;  ///< m2 per radian, of the particle at rest
   };
-  /// A particle of the charge bottom (without a charge, of the base) that the co-moving grid follows.
+  /// A particle of the charge bottom (without a charge, of the base) that the grid follows.
   struct Anchor {
     const ParticleFields* body;
     std::size_t slot;
     double initial_x;  ///< m
   };
-  /// Force of the chamber pressure on one node, N per Pa, per radian or metre.
+  /// Force of the chamber pressure on one node, N per Pa, per radian.
   struct LoadShare {
     std::size_t node;
     double force;
@@ -49,14 +49,12 @@ class UpdatedLagrangian {
 
   const scene::Scene& scene_;
   std::vector<AnyBody>& bodies_;
-  bool axisymmetric_;
   Grid grid_;
   std::vector<LoadedFace> faces_;
   std::vector<Anchor> anchors_;
   std::vector<LoadShare> load_shares_;
-  double travel_ = 0;       ///< m, of the window's target in the lab frame
   double base_origin_ = 0;  ///< m, of the grid at rest
-  double total_mass_ = 0;   ///< kg per radian or metre
+  double total_mass_ = 0;   ///< kg per radian
 };
 
 }  // namespace launchsafe::mpm

@@ -1,5 +1,4 @@
-// What single cases came to, as tables: their runs, how bodies slid, what followed ignition, and the energy
-// of the air; and decomposition kinetics in words.
+// What single cases came to, as tables: their runs, and what followed ignition.
 #pragma once
 
 #include "launchsafe/report/plot.hpp"
@@ -17,43 +16,15 @@ struct NamedRun {
   std::string stored;  ///< the file in the folder of results that holds it; empty: none
 };
 
-/// A row for every run: how it ended, energy drift, steps, particles, particle updates per second, limiters.
+/// A row for every run: how it ended, energy drift, steps, particles, limiters.
 Table run_table(const std::vector<NamedRun>& runs);
 
-/// A row for every face of the charge on which a body can slide: friction work, the largest heat by friction
-/// and where, the longest way slid, and the widest opening. Without rows where all bodies are bonded.
-Table interface_table(const run::MechanicsResult& mechanics);
-
-/// What a run that burnt came to.
-Quantities<run::CombustionHistory> burnt_state_quantities();
-
-/// A row a gap that burnt in a run with two-way coupling: flame speeds, end state, balance of energy, cost.
+/// A row a gap that burnt in a run with two-way coupling: end state, balance of energy, cost.
 /// No rows where none did.
-Table combustion_table(const scene::Scene& scene, const run::CaseResult& result);
-
-/// What the columns of the energy of the air are.
-std::vector<Column> air_energy_columns();
-
-/// The air of one gap of one case.
-struct AuditedGap {
-  std::string label;  ///< of the case; empty where there is only one
-  double gap = 0;     ///< m
-  surface::AirEnergy air;
-};
-
-/// What the audit says of temperatures and critical gaps, as a short paragraph: at the gap where the skin
-/// took most against its supply, whether that is more than compression can supply, and what follows.
-std::string air_energy_statement(const std::vector<AuditedGap>& gaps);
-
-/// A row for every gap: taken by the skin, supplied by compression, their ratio; under it the statement.
-/// Without rows where there is no gap.
-Table air_energy_table(const std::vector<AuditedGap>& gaps);
-
-/// A sentence: which decomposition the flame of a coupled run lives on, and which decides ignition.
-std::string flame_kinetics_note(const scene::Scene& scene);
+Table combustion_table(const run::CaseResult& result);
 
 // --- the pictures of one case: histories, profiles along the charge's bottom, and fields over the section;
-// and the numbers of some of them as tables. Besides, the picture of a shell at rest ---
+// and the numbers of some of them as tables ---
 
 /// A case and what of it is to be drawn.
 struct DrawnCase {
@@ -62,9 +33,6 @@ struct DrawnCase {
   /// s, of fields and profiles. Without any: every snapshot, and profiles at six times that divide the run
   /// evenly.
   std::vector<double> times = {};
-  /// What was published of this launch; temperatures of a gap that ignited until then alone.
-  std::vector<study::Reference> published = {};
-  double early_time = study::Study{}.early_time;  ///< s, of early temperatures
 };
 
 /// A picture and the name of its file, which follows from what it shows.
@@ -107,12 +75,5 @@ struct ShownSnapshot {
 std::vector<ShownSnapshot> shown_snapshots(const DrawnCase& drawn);
 /// Whether it is the one of a time (s) that a user names.
 bool is_of_time(const ShownSnapshot& snapshot, double time);
-
-/// Bodies in colours with their names in a legend, the lines of the grid, the axis of symmetry, the
-/// observation points with their names, and both axes in mm. A slender shell with a charge is drawn whole,
-/// and enlarged around the bottom of the charge. Names of points for which there is no room are left out, and
-/// the picture counts them. Needs at least one body. No other program takes part, and equal scenes have equal
-/// pictures.
-std::string section_svg(const scene::Scene& scene);
 
 }  // namespace launchsafe::report

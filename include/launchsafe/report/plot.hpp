@@ -30,8 +30,7 @@ enum class Style {
   line_and_points,
   vertical_bars,    ///< points with bars along y from `lower` to `upper`
   horizontal_bars,  ///< points with bars along x from `lower` to `upper`
-  filled_bars,      ///< likewise, filled, without points
-  steps
+  filled_bars       ///< likewise, filled, without points
 };
 
 enum class Mark {
@@ -42,7 +41,6 @@ enum class Mark {
   down_triangle,
   open_circle,
   open_square,
-  open_triangle,
   cross,
   none  ///< a bar alone
 };
@@ -67,13 +65,13 @@ struct Series {
   }
 };
 
-/// A dashed line across the whole picture; `label` stands beside it.
+/// A dashed line across the whole picture.
 struct Line {
   double at = 0;
   std::string label = {};
 };
 
-/// A grey band from edge to edge, behind all else; `label` likewise.
+/// A grey band from edge to edge, behind all else.
 struct Band {
   double from = 0, to = 0;
   std::string label = {};
@@ -86,13 +84,9 @@ struct Plot {
   std::vector<Line> vertical_lines = {}, horizontal_lines = {};
   int width = 800, height = 560;  ///< pixels, with one line of a legend; further ones come on top
   std::string subtitle = {};      ///< small, below the title
-  std::vector<Band> vertical_bands = {}, horizontal_bands = {};
-  /// Whether labels stand by what they name, in its colour: lines have them at their right ends, or beside
-  /// themselves where dashed ones end together, and few points where there is room.
-  bool named_in_place = false;
-  /// Pictures side by side, row by row; of the plot itself only title, subtitle and a legend of its series.
+  std::vector<Band> vertical_bands = {};
+  /// Pictures below each other; of the plot itself only title and subtitle.
   std::vector<Plot> panels = {};
-  int columns = 2;  ///< of panels; those of one column have their axes below each other
 };
 
 /// Ends the y axis beyond a line across: how hot a burning skin is says nothing of a gap, and how far a bar
@@ -125,16 +119,14 @@ struct Outline {
   bool open_at_axis = false;
 };
 
-/// A part of the section on one side of the axis, at the bottom of the charge, drawn again below the whole at
-/// a larger scale.
-struct Enlargement {
+/// The part of the section, on one side of the axis, that is all there is to see: it is drawn in the place of
+/// the whole, stretched along x.
+struct Window {
   double x_begin = 0, x_end = 0;  ///< mm
   double r_end = 0;               ///< mm, from the axis
-  /// Whether it is all that there is to see: then it is drawn in the place of the whole, stretched along x.
-  bool alone = false;
 };
 
-/// The section is mirrored about the axis and drawn to scale, equally along x and r; so is its enlargement.
+/// The section is mirrored about the axis and drawn to scale, equally along x and r, but for a window.
 struct CellPlot {
   std::string title;
   std::string subtitle = {};
@@ -142,9 +134,7 @@ struct CellPlot {
   std::vector<ColourScale> scales;
   std::vector<FieldCell> cells;
   std::vector<Outline> outlines;
-  std::optional<Enlargement> enlargement = {};
-  std::size_t ringed = 0;          ///< index of a cell in a ring
-  std::string ring_label = {};     ///< beside it, its value; without one there is no ring
+  std::optional<Window> window = {};
   std::string without_value = {};  ///< what grey cells are, for the subtitle
 };
 

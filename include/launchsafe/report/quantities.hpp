@@ -45,8 +45,6 @@ inline Column temperature_early(double early_time) {
   return always({"temperature_early", "T at " + milliseconds(early_time), fixed(1, kelvin),
                  "Temperature of the station that is hottest at the study's early_time, then."});
 }
-inline const Column temperature_early_place{"temperature_early_place", "at", text(),
-                                            "Station that is hottest at the study's early_time."};
 
 // Of verdicts.
 inline const Column uncertainty{
@@ -94,8 +92,6 @@ inline const Column energy_drift{
     "Largest energy that appeared or vanished over the run, as a share of the largest energy."};
 inline const Column steps{"steps", "steps", count(), "Time steps of the run."};
 inline const Column particles{"particles", "particles", count(), "Particles of the run."};
-inline const Column updates_per_second{"updates", "updates", scientific(2, per_second),
-                                       "Particle updates per second of the run."};
 inline const Column limiters{"limiters", "limiters (particle steps)", text(),
                              "How often bounds within the laws acted."};
 inline const Column processor_time{"processor_time", "processor time", significant(3, second),
@@ -114,8 +110,6 @@ inline const Column skin_temperature{"skin_temperature", "skin temperature", fix
                                      "Temperature of the charge's skin."};
 
 // Of what follows ignition.
-inline const Column skin_burnt_time{"skin_burnt_time", "skin burnt", fixed(3, millisecond),
-                                    "Instant at which the skin had burnt."};
 inline const Column burnt_mass{"burnt_mass", "burnt", significant(3, gram), "Mass of charge that has burnt."};
 inline const Column gas_volume{"gas_volume", "gas", significant(3, cubic_centimetre), "Volume of the gas."};
 inline const Column gas_temperature{"gas_temperature", "T gas", fixed(0, kelvin), "Temperature of the gas."};
@@ -129,17 +123,12 @@ inline const Column combustion_residual{
 
 // Of calibrated constants.
 inline const Column closure{"closure", "closure", text(), "Friction closure."};
-inline const Column kinetics{"kinetics", "kinetics", text(), "Set of kinetics."};
 inline const Column localisation{"localisation", "localisation", significant(6),
                                  "Localisation of the heat of friction."};
 inline const Column exchange_time{"exchange_time", "exchange time", significant(6, millisecond),
                                   "Exchange time between air and skin."};
 inline const Column ignition_temperature{"ignition_temperature", "T1", fixed(2, kelvin),
                                          "Ignition temperature."};
-inline const Column selection_rms{
-    "selection_rms", "RMS of selection", fixed(2, kelvin),
-    "Root mean square of the differences by which a model is chosen among others."};
-
 inline const Column load_peak_time{"peak_time", "peak time", significant(6, millisecond),
                                    "Instant of the load's peak."};
 inline const Column load_width{"width", "width", significant(6, millisecond), "Width of the load's bell."};

@@ -1,5 +1,5 @@
-// A safety report: the folders that studies left, read and checked; facts, which are rows of the studies and
-// what was selected from them; and templates, which say what is said of them, where and in which digits.
+// A safety report: the folders that studies left; facts, which are rows of the studies and what was selected
+// from them; and templates, which say what is said of them, where and in which digits.
 #pragma once
 
 #include "launchsafe/report/report.hpp"
@@ -22,9 +22,7 @@ struct StudyEvidence {
   std::string kind, title;
   toml::table asked;       ///< the study file
   scene::SceneFile scene;  ///< what was simulated, with what the study sets
-  /// Of one that gives verdicts: its gaps, what it varies and the cases that follow, by its manifest.
-  study::StudyFile planned = {};
-  Row study;  ///< study.json, its pictures with their SVG; null while it is not finished
+  Row study;               ///< study.json, its pictures with their SVG; null while it is not finished
   std::string tells = tells::nothing;
   /// What is not as in the scene of the report's main study; values that somebody accepts as "accept".
   std::vector<study::Difference> differences = {};
@@ -32,23 +30,16 @@ struct StudyEvidence {
   bool finished() const { return study.is_object(); }
   /// That makes it again, or goes on with it.
   std::string command() const;
-  /// Of one of its files, which that command would make anew.
-  store::Error fault(const std::filesystem::path& file, std::string_view found,
-                     std::string_view allowed) const;
   /// The rows of a table of study.json; none where it has no such table.
   const Row& rows(const std::string& table) const { return found_in(study, table); }
-};
-
-/// The stored run of a case, with the gaps that are in it as warm as their verdicts say.
-struct StoredLaunch {
-  scene::Scene scene;
-  run::CaseResult result;
 };
 
 /// All of it. There is at least one study.
 struct SafetyEvidence {
   std::vector<StudyEvidence> studies;
-  std::map<std::string, StoredLaunch> stored = {};  ///< of the main study, as far as they were kept, by case
+  /// The run of the main study's own launch, if it was kept, with the gaps that are in it as warm as their
+  /// verdicts say.
+  std::optional<run::CaseResult> stored = {};
   /// The finished study that tells that; nullptr without one.
   const StudyEvidence* find(const std::string& what) const;
   /// The one that the report is about: that of a launch, or else the first that is not finished or sweeps, or
@@ -59,7 +50,6 @@ struct SafetyEvidence {
 /// One case of a study that gives verdicts.
 struct CaseEvidence {
   const StudyEvidence* study;
-  std::size_t place;    ///< among the cases of its study
   const Row* critical;  ///< its row of the table of cases
   const Row* run;       ///< its row of the table of runs; that of the case where the study has none
   std::string label;    ///< "496 MPa, 30 µm, 1 mm"; of a sweep its place on the axes
@@ -73,27 +63,16 @@ struct CaseEvidence {
   bool completed() const { return text_of(*run, "status") == "completed"; }
   /// SI, of a scene key.
   double value(const std::string& key) const;
-  study::StudyCase input() const { return study->planned.cases[place]; }
 };
 /// SI, of a scene key that takes one number; of a measured load its peak.
 double own_value(const StudyEvidence& study, const std::string& key);
 
-/// Whether it makes another launch, or computes it otherwise.
-bool is_of_launch(const study::Difference& difference);
-
 /// Verdicts stand case after case, in the order of the cases, each with all gaps of the study.
 std::vector<CaseEvidence> cases_of(const StudyEvidence& study);
 
-/// Reads what a study asks for from its manifest, and holds all rows of its verdicts and cases against that
-/// and against their own parts. Throws store::Error, corrupt.
-void check_rows(StudyEvidence& study);
-
-/// Reads the folders of studies. Every file that a manifest lists must be there as it was written. Errors, a
-/// message each: no study there, a file that was edited or is missing, a model version other than this
-/// program's or another study's, a damaged case, verdicts without the code of their reason as an earlier
-/// program wrote them, a row that its own parts, its study's input or its stored run contradict, two studies
-/// of a kind that tell the same, studies of different shells, studies that bound the critical gap of one
-/// launch differently.
+/// Reads the folders of studies. Errors, a message each: no study there, a file that is missing or cannot be
+/// read, another model version than this program's, a damaged case, two studies of a kind that tell the same,
+/// studies of different shells.
 store::Result<SafetyEvidence> read_safety_evidence(const std::vector<std::filesystem::path>& folders);
 
 /// cm: the largest computed gap that is SAFE together with every smaller one. Nothing is interpolated.

@@ -97,30 +97,19 @@ std::optional<Measured> measured_gap(const study::CriticalGap& gap);
 std::string measured_text(const study::CriticalGap& gap);
 /// What makes critical gaps uncertain, cause by cause.
 Table gap_share_table(const std::vector<NamedGap>& cases);
-/// m, what a cell of that table says; NaN where that is not known.
-study::GapOrBound gap_or_bound_in(const std::string& text);
 /// "0.0395 cm", "> 0.1 cm", "ignites without a gap", "indeterminate".
 std::string reads_as(const study::CriticalGap& gap);
 
-std::vector<Column> cited_limit_columns();
-/// The study's cited limits beside the critical gaps of its cases, which are in their order; without rows
-/// where it cites none.
-Table cited_limit_table(const study::StudyFile& study,
-                        const std::vector<const study::CriticalGap*>& critical);
-
 /// On what the absolute value of a critical gap rests.
 std::string friction_remark(const study::StudyFile& study);
-
-/// What the uncertainty of a margin is made of, as a sentence.
-std::string uncertainty_remark(const study::StudyFile& study);
 
 // --- how far a study is, from what its writers tell in their status files ---
 
 /// What a writer tells of its progress: members of its status file.
 Row progress_row(const study::Progress& progress);
 
-/// The same as a line of a terminal of so many columns.
-std::string progress_line(const study::Progress& progress, std::time_t now, std::size_t width);
+/// The same as a line of a terminal.
+std::string progress_line(const study::Progress& progress, std::time_t now);
 
 /// The local time of day, such as "05:40"; with the day before it where that is another one than now's.
 std::string clock_time(std::time_t time, std::time_t now);

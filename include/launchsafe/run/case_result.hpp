@@ -35,14 +35,12 @@ enum class RunStatus {
   interrupted,
   timed_out,
   cells_distorted,
-  outside_gas_law,
-  flame_beyond_sound
+  outside_gas_law
 };
-inline constexpr RunStatus last_status = RunStatus::flame_beyond_sound;
+inline constexpr RunStatus last_status = RunStatus::outside_gas_law;
 std::string to_string(RunStatus status);
 
-/// Running sums of the energy balance, J (axisymmetric: of the whole shell; plane strain: per metre, half
-/// model); see `energy_terms`.
+/// Running sums of the energy balance, J of the whole shell; see `energy_terms`.
 struct EnergyBalance {
   double kinetic = 0, internal = 0, external = 0, body_force = 0, damping = 0, contact = 0;
   double plastic = 0, viscous = 0, crack = 0, hourglass = 0;
@@ -204,20 +202,15 @@ inline constexpr std::tuple stored_interface{
     Stored{"overlap", &InterfaceResult::overlap, "m", "by which the faces passed into each other"},
 };
 
-/// States of a launch from which runs of single gaps go on.
-class Checkpoints;
-
 struct MechanicsResult {
   RunStatus status = RunStatus::completed;
   std::string reason;   ///< when and where, if not completed
   double end_time = 0;  ///< s, reached
   std::uint64_t steps = 0;
-  std::uint64_t steps_before = 0;  ///< of them, up to the checkpoint from which this run went on
   std::uint64_t particles = 0;
   double wall_time = 0;       ///< s
-  double processor_time = 0;  ///< s, of the run's threads: what other work on the machine disturbs least
-  /// Particles times the steps that this run computed.
-  double particle_updates() const { return double(steps - steps_before) * double(particles); }
+  double processor_time = 0;  ///< s: what other work on the machine disturbs least
+  double particle_updates() const { return double(steps) * double(particles); }
   /// s, of processor time; of wall time where that is not known.
   double work_time() const { return processor_time > 0 ? processor_time : wall_time; }
   double update_rate() const { return work_time() > 0 ? particle_updates() / work_time() : 0; }  ///< 1/s
@@ -226,8 +219,7 @@ struct MechanicsResult {
   std::vector<MonitorSample> monitor;
   std::vector<Snapshot> snapshots;
   LimiterCounts limiters;
-  std::vector<InterfaceResult> interfaces;         ///< none for bonded bodies
-  std::shared_ptr<const Checkpoints> checkpoints;  ///< in memory only, where they were asked for
+  std::vector<InterfaceResult> interfaces;  ///< none for bonded bodies
 };
 
 /// 0 for a material without particles.
@@ -243,16 +235,13 @@ double largest_at_bottom(const MechanicsResult& mechanics, double bottom,
 double largest_energy_drift(const MechanicsResult& mechanics);
 
 /// Why a run that burns ended.
-enum class CombustionEnd { time, pressure, broke_off, burnt_through };
+enum class CombustionEnd { time, pressure, broke_off };
 
 /// What followed the ignition of a gap in a run with two-way coupling; samples are those of the trace from
-/// the one before ignition on. Of the whole shell (plane strain: per metre).
+/// the one before ignition on. Of the whole shell.
 struct CombustionHistory {
-  std::vector<double> time, burnt_mass, burnt_depth, gas_volume, gas_temperature, pressure;
-  std::vector<double> released, kept_back, brought;
+  std::vector<double> time, burnt_mass, gas_volume, gas_temperature, pressure, released, brought;
   std::vector<double> reaction_degree;  ///< of the skin, [sample * stations + station]
-  double skin_flame_speed = 0, bulk_flame_speed = 0;
-  double complete_time = 0;  ///< NaN if no skin had burnt
   double energy_residual = 0;
   CombustionEnd end = CombustionEnd::time;
   std::string reason;
@@ -265,21 +254,14 @@ inline constexpr std::tuple stored_combustion{
     Stored{"reason", &CombustionHistory::reason, "none", "why it broke off"},
     Stored{"energy_drift", &CombustionHistory::energy_drift, "1", "largest energy drift of the run"},
     Stored{"wall_time", &CombustionHistory::wall_time, "s", "wall time of the run"},
-    Stored{"skin_flame_speed", &CombustionHistory::skin_flame_speed, "m/s",
-           "at the first station, through its skin"},
-    Stored{"bulk_flame_speed", &CombustionHistory::bulk_flame_speed, "m/s", "the same, behind the skin"},
-    Stored{"complete_time", &CombustionHistory::complete_time, "s",
-           "when the skin of some station had burnt"},
     Stored{"energy_residual", &CombustionHistory::energy_residual, "1",
            "largest energy made or lost over the heat of reaction of what had burnt"},
     Stored{"time", &CombustionHistory::time, "s", "time"},
     Stored{"burnt_mass", &CombustionHistory::burnt_mass, "kg", "mass of the gas"},
-    Stored{"burnt_depth", &CombustionHistory::burnt_depth, "m", "largest depth of a flame"},
     Stored{"gas_volume", &CombustionHistory::gas_volume, "m3", "volume of the gas"},
     Stored{"gas_temperature", &CombustionHistory::gas_temperature, "K", "mean over the gas's mass"},
     Stored{"pressure", &CombustionHistory::pressure, "Pa", "mean over the bottom"},
     Stored{"released", &CombustionHistory::released, "J", "heat of reaction released"},
-    Stored{"kept_back", &CombustionHistory::kept_back, "J", "heat of reaction that was not released"},
     Stored{"brought", &CombustionHistory::brought, "J",
            "heat above the initial temperature that the burnt part had before"},
 };

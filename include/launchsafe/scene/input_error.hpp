@@ -76,12 +76,11 @@ Expected<std::invoke_result_t<Read>> caught(Read&& read) {
 inline constexpr std::size_t longest_quoted = 240, longest_allowed_quoted = 4000, longest_file_quoted = 1000;
 
 /// A text as a message quotes it: on one line, control characters as escapes; of more than `longest` bytes
-/// the first and the last.
+/// the first.
 std::string quotable(std::string_view text, std::size_t longest);
 
-/// The candidate nearest to `word` in letters changed, added, dropped or swapped, case ignored, or the key
-/// that it is without its table. Empty if none is near (more than a third of the letters differ, or more than
-/// two of them, or the words differ in digits or by letters in front) or several are equally near. Words of
+/// The candidate nearest to `word` in letters changed, added, dropped or swapped. Empty if none is near (more
+/// than a third of the letters differ, or more than two of them) or several are equally near. Words of
 /// hundreds of letters are near to none.
 std::string nearest_of(std::string_view word, const std::vector<std::string>& candidates);
 

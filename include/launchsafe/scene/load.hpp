@@ -91,14 +91,14 @@ struct ChamberFace {
 
 struct Chamber {
   std::vector<ChamberFace> faces;  ///< in the order of the bodies, each from its begin on
-  double band = 0;                 ///< m, base-side end of the ring of full radius that seals the chamber
+  double band = 0;                 ///< m, base-side end of the annulus of full radius that seals the chamber
   /// What the drawing leaves open, for people, and files are refused for; empty where it is clear. Otherwise
   /// the rearmost faces alone are loaded.
   std::string unclear;
 };
 
 /// Gas fills what is open towards the base, and what lies between the barrel and a shell of less than the
-/// full radius behind the band. The band is at `Load::obturation`, or at the foremost ring of full radius.
+/// full radius behind the band. The band is at `Load::obturation`, or at the foremost annulus of full radius.
 /// What has the full radius lies against the barrel. Nothing without bodies.
 Chamber chamber_of(const Scene& scene);
 
@@ -132,11 +132,6 @@ bool is_cut_short(const Load& load);
 
 /// The same load in a barrel without end.
 Load without_exit(Load load);
-/// The load of the same launch where it goes on for longer than it is simulated: until it is over where
-/// `Load::duration` cuts it short, else in a barrel without end where it has a muzzle exit. None for others,
-/// nor for what would go on for more than ten times as long.
-std::optional<Load> longer_launch(Load load);
-
 /// For people: "796 m/s after 5.26 m of travel, at 18 ms with 12.5 % of the peak pressure"; empty without an
 /// exit.
 std::string exit_text(const Scene& scene);

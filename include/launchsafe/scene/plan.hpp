@@ -76,10 +76,10 @@ std::string charge_edges_off_grid(const Scene& scene);
 /// in the updated-Lagrangian form, the body's length over the cell's, rounded up.
 ParticleCount particles_of(const Scene& scene, const Body& body);
 
-/// Cells of the scene's grid, and the lengths of the shortest and longest ones in each direction, m.
+/// Cells of the scene's grid, and the lengths of the shortest ones in each direction, m.
 struct CellRange {
   int nx = 0, nr = 0;
-  double shortest_x = 0, longest_x = 0, shortest_r = 0, longest_r = 0;
+  double shortest_x = 0, shortest_r = 0;
   double shortest() const { return shortest_x < shortest_r ? shortest_x : shortest_r; }
 };
 CellRange cells_of(const Scene& scene);
@@ -98,26 +98,6 @@ MeshSize mesh_size(const Scene& scene);
 
 /// Particles of all bodies.
 std::int64_t particle_count(const Scene& scene);
-
-// The grid as a list that people can check: between which edges of bodies it has how many cells of what
-// length.
-
-/// The cells between two neighbouring places where bodies begin or end. Lengths in m.
-struct GridInterval {
-  const char* along = "";  ///< "x" or "r"
-  double from = 0, to = 0;
-  int cells = 0;
-  double shortest = 0, longest = 0;                   ///< of its cells
-  std::vector<std::string> edge_before, edge_behind;  ///< names of the bodies with an edge at `from`, at `to`
-};
-
-struct GridIntervals {
-  std::vector<GridInterval> x, r;
-};
-
-/// The intervals of `lines_at_rest` in either direction, increasing, which together are the whole grid. Lines
-/// of the even grid of the updated-Lagrangian form need not run through edges of bodies: it is one interval.
-GridIntervals grid_intervals(const Scene& scene);
 
 // Stations: the parts of the charge's bottom over which pressure and strain are averaged.
 
@@ -181,8 +161,8 @@ struct Plan {
   /// Particle updates of the run. Where the crack law divides steps, which cannot be foreseen, it is worth
   /// more.
   double work = 0;
-  /// The same, at most, of the run of one gap that goes on from a checkpoint of the launch and, where it
-  /// ignites, through combustion; 0 with one-way coupling.
+  /// The same, at most, of the run of one gap from the start and, where it ignites, through combustion; 0
+  /// with one-way coupling.
   double coupled_work = 0;
   double memory = 0;  ///< bytes of particles and grid, estimated
 };
@@ -205,11 +185,6 @@ inline constexpr std::array<NamedTerm, 11> plan_terms{{
     {"coupling", "coupling", &Plan::coupling},
     {"snapshots", "snapshots", &Plan::snapshots},
 }};
-
-/// Into so many parts checkpoints divide a launch (total-Lagrangian; other formulations have none).
-inline constexpr double parts_of_launch = 16.0;
-/// So long before ignition, as a share of the launch, the checkpoint lies at least from which a run goes on.
-inline constexpr double share_before_ignition = 0.01;
 
 /// Longitudinal sound speed at rest (m/s), sqrt((K + 4/3 G)/rho).
 double longitudinal_speed(const materials::Law& law);
@@ -262,8 +237,7 @@ double usual_selective_inertia(const Scene& scene);
 /// pressure is traced), exchange and localisation; numbers of the analytic load under a measured curve. The
 /// plan's switches stand as decided, without what the decision rests on. Kinetics, heat conduction, friction
 /// closure and specific heat of laws that do not heat themselves stay only where the plan, or a snapshot,
-/// needs them, materials only where a body is made of them. Zeros have no sign. Names of bodies stay: a
-/// failed run tells where it failed.
+/// needs them, materials only where a body is made of them. Names of bodies stay.
 ///
 /// Scenes with equal mechanical parts share one mechanical run, bit by bit. The part of a valid scene is
 /// valid.

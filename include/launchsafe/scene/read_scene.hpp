@@ -9,9 +9,9 @@
 
 namespace launchsafe::scene {
 
-// --- materials, and how bodies hold the charge, as data: [material.NAME] and [contact.NAME] in a scene or in
-// a file of materials, and those that ship with the program; [interface.NAME] of a scene, for the body of
-// that name and the charge. Each number may say where it comes from ---
+// --- materials as data, each one table of numbers: a file that a body names by its path, a table
+// [material.NAME] of the scene, or one that ships; and [interface.NAME], for the body of that name and the
+// charge ---
 
 /// A value that a file gives, and where.
 struct Given {
@@ -25,71 +25,23 @@ struct NamedMaterial {
   std::string name;
   std::string law;    ///< the word of its law, such as "charge"
   std::string title;  ///< for people
-  std::string like;   ///< name of the material that gives what is not given here
   Place place;
   std::map<std::string, Given> values;  ///< by the scene's key, such as "charge.density"
-  std::vector<Source> sources;          ///< of these keys
 };
 
-/// A contact whose name interfaces refer to.
-struct NamedContact {
-  std::string name;
-  std::string title;            ///< for people
-  Interface faces;              ///< without a body
-  std::vector<Source> sources;  ///< of its keys
-};
-
-/// Activation energy, frequency factor and heat of one reaction of order zero, which belong together. They
-/// ship with the program, and files of users have none.
-struct Decomposition {
-  std::string name;                        ///< a word of combustion.kinetics
-  std::string title;                       ///< of which explosive, for people
-  materials::KineticsParameters kinetics;  ///< E/R, Z and Q; the rest is unused
-  std::vector<Source> sources;             ///< of its keys, as a material names them without "kinetics."
-};
-
-/// The key of a scene that names a file of materials and contacts.
-const KeyDescription& material_file_key();
-/// What [material.NAME] says beside the numbers of its law.
+/// What a material says beside the numbers of its law.
 const std::vector<Key<NamedMaterial>>& material_keys();
 /// Keys of one [interface.NAME].
 const std::vector<Key<Interface>>& interface_keys();
-/// Keys of one [contact.NAME], and that of an interface which names a contact.
-const std::vector<Key<NamedContact>>& contact_keys();
-const KeyDescription& contact_of_interface_key();
 /// A number's key as a material has it: "density" for "charge.density"; others keep their table.
 std::string key_in_material(std::string_view law, std::string_view scene_key);
 
-/// The materials and contacts that the program brings along, by name; texts in studies/materials.
+/// The materials that the program brings along, by name; texts in studies/materials.
 const std::vector<NamedMaterial>& shipped_materials();
-const std::vector<NamedContact>& shipped_contacts();
 
-/// The tables [material.NAME] of a file; none if it has none. `known`: materials of other files, which these
-/// may be like, and whose names they must not take. Throws: a name that is taken, an unknown law or key, a
-/// number that is neither given nor that of another material, a material that is like itself, and those of
-/// sources.
-std::vector<NamedMaterial> read_materials(const toml::table& root, const std::string& file,
-                                          const std::vector<NamedMaterial>& known);
-
-/// The tables [contact.NAME] of a file; none if it has none. `known`: contacts of other files, whose names
-/// these must not take. Throws: a name that is taken, a key that does not exist, a value out of range, those
-/// of sources.
-std::vector<NamedContact> read_contacts(const toml::table& root, const std::string& file,
-                                        const std::vector<NamedContact>& known);
-
-/// Throws the fault of the first key of a file of materials that is no table of it.
-void check_material_tables(const toml::table& root, const std::string& file);
-
-/// Keys of [[source]], and of the sources of a material.
-const std::vector<Key<Source>>& source_keys();
-/// The tables "source" of a table; none if it has none. Throws: a key that is not among `known`, one with two
-/// sources, a source without words.
-std::vector<Source> read_sources(const toml::table& table, const std::vector<std::string>& known,
-                                 const std::string& file);
-/// The source of a key; none where nothing is said.
-const Source* source_of(const std::vector<Source>& sources, const std::string& key);
-/// Takes a key away from its source: its value is another one.
-void forget_source(std::vector<Source>& sources, const std::string& key);
+/// The tables [material.NAME] of a scene; none if it has none. Throws: the name of a law, an unknown law or
+/// key, a number that is not given.
+std::vector<NamedMaterial> read_materials(const toml::table& root, const std::string& file);
 
 /// Names of the bodies, no charges themselves, that touch a charge.
 std::vector<std::string> bodies_at_the_charge(const Scene& scene);
@@ -99,23 +51,6 @@ struct InterfaceText {
   std::string body, condition, assumes;
 };
 std::vector<InterfaceText> describe_interfaces(const Scene& scene);
-
-// Decompositions of explosives whose numbers belong together, as data: what a flame lives on after the
-// ignition.
-
-/// The word of combustion.kinetics for the charge's own numbers, those that decide ignition.
-inline constexpr const char* effective_kinetics = "effective";
-
-/// Keys of one [decomposition.NAME].
-const std::vector<Key<Decomposition>>& decomposition_keys();
-
-/// Those that the program brings along; texts in studies/materials.
-const std::vector<Decomposition>& shipped_decompositions();
-
-/// What the flame of a scene lives on (combustion.kinetics), with the charge's T1 and T2: the charge's own
-/// kinetics, or E/R, Z and Q of a decomposition. Its heat is never more than the charge's, which is what
-/// burning releases.
-materials::KineticsParameters flame_kinetics(const Scene& scene);
 
 // --- values that are allowed but that no launch has: a verdict that rests on one is indeterminate, unless
 // the scene or its study says why it is meant: accept = [{ key = "...", value = "...", because = "..." }] ---
@@ -220,24 +155,19 @@ struct DocumentedKey {
 /// All keys of a scene file, those of its tables as "body.x", "interface.NAME.friction",
 /// "observation_point.x" and "accept.key".
 std::vector<DocumentedKey> describe_keys();
-/// Whether a key has that name, or is in a table of that name: "load.peak", "load".
-bool has_key(const std::vector<DocumentedKey>& keys, const std::string& name);
-
 /// A valid scene, and what in it was said rather than assumed.
 struct SceneFile {
   Scene scene;
   std::string file;                         ///< as named by the user
   std::filesystem::path folder;             ///< what relative paths in it start from
   std::map<std::string, Given> given;       ///< scene keys that the user set, or a material that he named
-  std::vector<NamedMaterial> materials;     ///< that bodies may be of, besides the shipped ones
+  std::vector<NamedMaterial> materials;     ///< of the scene and of files, besides the shipped ones
   std::vector<std::string> body_materials;  ///< of each body, as the user named it
-  std::vector<Source> sources;              ///< of the scene's own values
   std::map<std::string, Place> places;      ///< of "body.<name>.x", "observation_point.<name>.r", ...
-  std::vector<std::string> notes;           ///< on words of earlier versions, a line each
 };
 
 /// Where activation temperature, frequency factor and heat of the charge come from, as people read it: the
-/// charge's material, a named set, or keys of the scene or a study, each with file and line.
+/// charge's material, or keys of the scene or a study, each with file and line.
 std::string kinetics_origin(const SceneFile& file);
 
 /// Where the user gave a key; the file as a whole if it is a default.
@@ -254,9 +184,9 @@ Expected<SceneFile> parse_scene(std::string_view text, const std::filesystem::pa
 /// purpose.
 void check_expected_velocity(const SceneFile& file);
 
-/// The key of a scene by dotted name; "body.<name>.x", ".r" or ".material" of a body that the scene has, for
-/// what holds the charge "interface.<name>.<key>" of a body that touches it, whether or not the scene has
-/// that table, and "material.<name>.<key>" of a material that a body names.
+/// The key of a scene by dotted name; "body.<name>.x", ".r" or ".material" of a body that the scene has, and
+/// for what holds the charge "interface.<name>.<key>" of a body that touches it, whether or not the scene has
+/// that table.
 Expected<KeyDescription> describe_key(const SceneFile& file, const std::string& name, const Place& place);
 
 /// The value of a key that `describe_key` knows and that is no geometry. Numbers of an interface that are not
@@ -270,29 +200,23 @@ struct KeyChange {
   Place place;
 };
 /// The scene with some keys changed, validated anew: they need be valid only together, and lose no value to
-/// each other. Keys that would contradict the new ones lose their given value: setting charge.face_friction
-/// drops charge.crack_friction, setting kinetics.set drops the numbers of the law, ... `is_valid`: these
+/// each other. Keys that would contradict the new ones lose their given value: setting load.shape
+/// drops the numbers of the other shapes, ... `is_valid`: these
 /// changes were found valid before, and are not validated again.
 Expected<SceneFile> with_keys(const SceneFile& file, const std::vector<KeyChange>& changes,
                               bool is_valid = false);
-/// The same of one key with the value as written: "0.1 mm", "true", "comp-b".
-Expected<SceneFile> with_written_key(const SceneFile& file, const std::string& name, std::string_view written,
-                                     const Place& place);
 
 /// One key of a scene with its value.
 struct ListedKey {
   std::string name;
   std::string value;  ///< as people read it
-  Standing standing;  ///< `input` where the user gave it
   std::string sentence;
-  Place place;           ///< where the user gave it
-  std::string citation;  ///< where the value comes from; empty where nothing is said
 };
 /// The scene's own keys: those that do something, and those that the user gave.
 std::vector<ListedKey> list_keys(const SceneFile& file);
 
 /// The whole scene as TOML in SI, every key that does something written, measured curves included: reads back
-/// to exactly the same scene, if its materials are those of a file. Equal texts are equal scenes, whatever
+/// to exactly the same scene. Equal texts are equal scenes, whatever
 /// file they came from.
 std::string to_toml(const Scene& scene);
 

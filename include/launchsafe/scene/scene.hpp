@@ -6,10 +6,12 @@
 #include "launchsafe/materials/ideal_gas.hpp"
 #include "launchsafe/materials/laws.hpp"
 
+#include <memory>
+
 namespace launchsafe::scene {
 
-enum class Symmetry { axisymmetric, plane_strain };
-enum class Frame { co_moving, lab };
+struct LoadInBarrel;
+
 enum class Barrel { rigid, none };
 /// auto: the plan decides from the scene's own numbers.
 enum class Switch { automatic, on, off };
@@ -20,10 +22,6 @@ using materials::FrictionClosure, materials::word_of;
 enum class LoadShape { bell, power_exponential };
 /// The word of a shape in scene files and reports.
 std::string word_of(LoadShape shape);
-enum class AirPressure { charge_bottom, chamber };
-// One each: records and manifests write them, and are refused without.
-enum class AirModel { reservoir };
-enum class Exchange { rate };
 
 /// What bodies are made of: a law with its parameters, under the name that bodies refer to it by.
 struct Material {
@@ -64,17 +62,19 @@ struct Load {
   double smoothing = 0.0;              ///< s; window over which a measured curve is averaged, 0 = as measured
   std::optional<double> muzzle_exit;   ///< s, when the shot leaves the barrel
   std::optional<double> muzzle_travel;  ///< m, after which it does; beside `muzzle_exit` only a check of it
-  double muzzle_exit_spread = 0.0;      ///< s, 95 % half width of the time of the exit
   double exit_decay = 5e-4;             ///< s, time constant of the pressure after the exit
   /// m/s at the exit, or at the end where there is none, as a range table has it: a check of what is typed,
   /// and no part of the launch.
   std::optional<double> expected_velocity;
-  /// m, a place along x of the driving band up to which the pressure acts. None: the foremost ring of full
+  /// m, a place along x of the driving band up to which the pressure acts. None: the foremost annulus of full
   /// radius, which `settle_load` writes here where the pressure acts on more than the rearmost faces.
   std::optional<double> obturation;
   /// kg/m2 of the whole projectile over the area that the pressure drives, with which `muzzle_travel` is
   /// reached. It follows from the bodies: `settle_load` sets it, and reading a scene calls that.
   double mass_over_area = 0.0;
+  /// What takes long of a measured curve, built once by `build_curve`. Where the curve was changed since,
+  /// every PressureHistory builds its own.
+  std::shared_ptr<const LoadInBarrel> in_barrel = {};
 };
 
 /// When the shot leaves the barrel, s: as the load states, or when the projectile as one rigid body has
@@ -93,9 +93,6 @@ using materials::Steel;
 struct Surface {
   std::vector<double> gaps{0.0};  ///< m
   materials::AirParameters air;
-  AirPressure air_pressure = AirPressure::charge_bottom;
-  AirModel air_model = AirModel::reservoir;
-  Exchange exchange = Exchange::rate;
   double skin_thickness = 1e-4;       ///< h_ex, m
   double exchange_time = 2.85100e-4;  ///< tau_ex, s [C]
   /// Stations tile the charge's bottom by about this width and this depth, m.
@@ -106,13 +103,12 @@ struct Surface {
 
 struct Numerics {
   Formulation formulation = Formulation::total_lagrangian;
-  /// Largest cell (m) at the refined lines; everywhere else too where the growth is 1.
+  /// Largest cell (m) at the edges of the charge that face the gap and the wall; everywhere else too where
+  /// the growth is 1.
   double cell_size = 2.5e-3;
-  /// Ratio of neighbouring cells away from the refined lines, by direction; 1 = even.
+  /// Ratio of neighbouring cells away from these edges, by direction; 1 = even.
   double growth_x = 1.0, growth_r = 1.0;
-  double largest_cell = 10e-3;    ///< m, where cells grow
-  std::vector<double> refined_x;  ///< m; empty: the charge's bottom
-  std::vector<double> refined_r;  ///< m; empty: the charge's edges
+  double largest_cell = 10e-3;  ///< m, where cells grow
   double hourglass_stiffness =
       0.1;                     ///< share of the hourglass modulus: that of shear, a fifth of it in a charge
   int particles_per_cell = 1;  ///< in each direction
@@ -149,7 +145,7 @@ struct ObservationPoint {
 };
 
 /// Instants that a snapshot may be of, in the order in which a launch has them as a rule.
-enum class Event { first_crack_growth, first_yield, peak_pressure, largest_slip, ignition, burnt };
+enum class Event { first_crack_growth, first_yield, peak_pressure, largest_slip, ignition };
 /// The words of all of them in files, by the event's number: "first-crack-growth", ...
 const std::vector<std::string>& event_words();
 inline const std::string& word_of(Event event) { return event_words()[static_cast<std::size_t>(event)]; }
@@ -168,9 +164,6 @@ struct Output {
 struct Physics {
   Switch conduction = Switch::automatic;     ///< grid heat conduction
   Switch bulk_reaction = Switch::automatic;  ///< Arrhenius heat in the bulk of the charge
-  /// Temperature or pressure shares below which a term is left out.
-  double conduction_bound = 0.05;  ///< diffusion length over cell size
-  double reaction_bound = 0.1;     ///< K of self-heating over the run
 };
 
 /// What the user says of a value that is allowed but not plausible, or not the calibrated one: that this
@@ -181,31 +174,16 @@ struct Acceptance {
   std::string because;
 };
 
-/// Where the values of some keys come from.
-struct Source {
-  std::vector<std::string> keys;  ///< "charge.density", "load.peak", ...
-  keys::Standing standing = keys::Standing::literature;
-  std::string citation;
-};
-
 /// Whether what the skin does after its ignition acts on the mechanics.
 enum class Coupling { one_way, two_way };
-/// Heat that burning explosive gives off: as much as brings its products to T2, where the published model
-/// stops heating, or all of its heat of reaction.
-enum class HeatRelease { to_burnt_temperature, full };
-
 /// What follows ignition in a run with two-way coupling.
 struct Combustion {
-  HeatRelease release = HeatRelease::to_burnt_temperature;
-  std::string kinetics = "rdx";  ///< what the flame lives on: a Decomposition by name, or "effective"
-  double duration = 1e-3;        ///< s after the first ignition, at which the run ends
-  double stop_pressure = 2e9;    ///< Pa on the charge's bottom, at which it ends before
+  double duration = 1e-3;      ///< s after the first ignition, at which the run ends
+  double stop_pressure = 2e9;  ///< Pa on the charge's bottom, at which it ends before
 };
 
 struct Scene {
   std::string title;
-  Symmetry symmetry = Symmetry::axisymmetric;
-  Frame frame = Frame::co_moving;
   Barrel barrel = Barrel::rigid;
   bool open_charge = false;            ///< ends of the charge but its bottom need not bear on bodies
   double initial_temperature = 300.0;  ///< K
@@ -220,7 +198,6 @@ struct Scene {
   Coupling coupling = Coupling::one_way;
   Combustion combustion;
   std::vector<Acceptance> accepted;
-  std::vector<Source> sources;
 
   /// The first material of a law, which the law's keys speak of. The usual one where there is none; the
   /// second form then adds it.
@@ -252,7 +229,7 @@ struct Scene {
   Charge& charge() { return parameters<Charge>(); }
 };
 
-/// Takes away what is there for people alone: titles, and where values come from.
+/// Takes away what is there for people alone, titles.
 void clear_remarks(Scene& scene);
 
 /// The material of a name; none where the scene has none of that name.
@@ -295,11 +272,11 @@ Extent extent_where(const Scene& scene, const std::function<bool(const Body&)>& 
 /// The round-off of lengths that users write in decimals, m: places closer than this are one.
 double length_tolerance(const Scene& scene);
 
-/// Masses in kg (axisymmetric: of the whole shell; plane strain: per metre of depth, half model).
+/// Masses in kg, of the whole shell.
 double mass_of(const Scene& scene, std::string_view material);
 double total_mass(const Scene& scene);
-/// Area by which the chamber pressure drives the projectile along x (m2; plane strain: m2 per metre of depth,
-/// half model): that of the faces towards the base less that of those towards the nose.
+/// Area by which the chamber pressure drives the projectile along x, m2: that of the faces towards the base
+/// less that of those towards the nose.
 double base_area(const Scene& scene);
 
 /// Axial acceleration (m/s2) of the whole projectile as one rigid body under a pressure (Pa) of the chamber.
@@ -315,6 +292,10 @@ std::string rigid_motion_text(const Scene& scene, double time);
 /// Sets what of the load follows from the bodies: its mass over area, and the driving band. A program that
 /// states a `muzzle_travel` calls it.
 void settle_load(Scene& scene);
+
+/// Builds the measured curve of a load, if it has one, for all histories of this load and of its copies. The
+/// curve must be valid.
+void build_curve(Load& load);
 
 /// Chamber pressure (Pa) at time t (s); monotone cubic (PCHIP) through a measured curve of at
 /// least two points at increasing times, held constant outside it. Curves of two or three points are joined
@@ -343,12 +324,11 @@ class PressureHistory {
 
  private:
   std::pair<double, double> largest() const;  ///< its time, s, and the largest pressure, Pa
-  double in_the_barrel(double time) const;
+  bool is_measured() const;
 
-  Load load_;
-  std::function<double(double)>
-      curve_;  ///< between the first and the last point; empty for the analytic shape
-  double scale_ = 1.0;
+  std::shared_ptr<const LoadInBarrel> barrel_;             ///< the load as it would go on without the exit
+  std::optional<double> duration_;                         ///< s, as `Load::duration`
+  double exit_decay_ = 0.0;                                ///< s
   double exit_ = std::numeric_limits<double>::infinity();  ///< s
   double exit_pressure_ = 0.0, pressure_outside_ = 0.0;    ///< Pa
 };

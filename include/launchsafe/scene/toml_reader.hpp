@@ -27,8 +27,7 @@ std::string allowed_text(const KeyDescription& key);
 std::string plausible_text(const KeyDescription& key);
 /// A value as people read it ("0.003 cm", "axisymmetric", "0 to 11.8 cm").
 std::string format_value(const KeyDescription& key, const Value& value);
-/// A value as TOML that reads back to exactly the same; words that had another name in earlier versions under
-/// that one, so that texts made of these identify the same stored results as before.
+/// A value as TOML that reads back to exactly the same.
 std::string exact_toml(const KeyDescription& key, const Value& value);
 
 /// What is needed to name a place in a file.
@@ -49,16 +48,11 @@ Expected<toml::table> parse_toml(std::string_view text, const std::string& file)
 /// Bytes of the largest scene, study or record that is read, and of the largest pressure curve.
 inline constexpr std::size_t largest_input = std::size_t{16} << 20, largest_curve = std::size_t{64} << 20;
 
-/// The content of a regular file of at most `largest` bytes, or why it cannot be read. Never waits for a pipe
-/// or a device.
+/// The content of a regular file of at most `largest` bytes, or why it cannot be read.
 Expected<std::string> read_regular_file(const std::filesystem::path& file, std::size_t largest);
-/// What a file of input is of: people give a study where a scene is asked for, and the other way round.
-enum class InputContent { scene, study, materials, unknown };
-
-/// The same of a file that a user named: in the place of a missing one that is suggested which was
-/// perhaps meant, in that of a folder the files in it that are of what is wanted.
-Expected<std::string> read_text_file(const std::filesystem::path& file, std::size_t largest = largest_input,
-                                     InputContent wanted = InputContent::unknown);
+/// The same of a file that a user named: in the place of a missing one that is suggested which was perhaps
+/// meant.
+Expected<std::string> read_text_file(const std::filesystem::path& file, std::size_t largest = largest_input);
 /// The path of a file that a key names by its path from a folder, that of the key's own file. Throws the
 /// fault of one that is not there: `wanted` says which file that should be.
 std::filesystem::path named_file(const std::filesystem::path& folder, const std::string& name,
@@ -79,12 +73,7 @@ Expected<std::vector<Value>> read_values(const toml::node& node, const KeyDescri
 struct ReadValues {
   std::vector<std::pair<std::size_t, Value>> values;  ///< index of the key, value
   std::map<std::string, Place> places;                ///< of every key the user gave
-  std::vector<std::string> notes;                     ///< on words of earlier versions, a line each
 };
-
-/// The note on a value that has the name of an earlier version of the program; none of another value.
-std::optional<std::string> note_on_former_word(const toml::node& node, const KeyDescription& key,
-                                               const Place& place);
 
 /// A key of a table by its dotted name.
 struct Leaf {
@@ -158,14 +147,12 @@ Expected<std::vector<std::pair<Owner, std::map<std::string, Place>>>> read_table
   });
 }
 
-/// What is found where no key has a name, and where a key of a file belongs that was found in a table of it.
-inline constexpr std::string_view an_unknown_key = "an unknown key",
-                                  above_tables = " above the first [table], where it belongs";
 /// The error for a name that no key has, with the nearest one that exists.
 InputError unknown_key(const Place& place, const std::string& name, const std::vector<std::string>& known);
 
-/// By the keys of a file: a scene has bodies; a study names its kind or its scene; a file of materials has
-/// nothing but materials and contacts.
+/// What a file of input is of: people give a study where a scene is asked for, and the other way round.
+enum class InputContent { scene, study, material, unknown };
+/// By the keys of a file: a scene has bodies; a study names its kind or its scene; a material has a law.
 InputContent content_of(const toml::table& root);
 /// Of a file; unknown where it cannot be read, about which its reader complains.
 InputContent content_of(const std::filesystem::path& file);

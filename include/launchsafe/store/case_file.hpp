@@ -10,17 +10,11 @@
 
 namespace launchsafe::store {
 
-struct LibraryVersion {
-  std::string name, version;
-  bool operator==(const LibraryVersion&) const = default;
-};
-
 struct Manifest {
   std::string input_text;    ///< all that determines the case, as it was read
   std::string input_sha256;  ///< of `input_text`; two results with the same one are the same question
   int model_version = 0;     ///< of the physics, see run::model_version; 0 where it was not recorded
   std::string program_version, commit, compiler, compiler_flags, build_type;
-  std::vector<LibraryVersion> libraries;
   std::string host;
   int threads = 1;
   std::string start_time;  ///< ISO 8601, UTC
@@ -38,31 +32,23 @@ std::string program_of(const Manifest& manifest);
 /// The name of this machine on its network.
 std::string host_name();
 
-/// The versions of the libraries that this program was built with.
-std::vector<LibraryVersion> library_versions();
-
 /// The time now, such as 2026-03-01T09:30:00Z.
 std::string utc_now();
 
-/// The first bytes of every case file.
-inline constexpr std::string_view case_file_begin = "launchsafe case file";
-
 /// Writes a case file at `path` and, when there are snapshots, `path` with the extension .xdmf beside it, by
 /// which ParaView opens the particles, each as a cell, as a time series. Never overwrites a different result:
-/// a file with another input hash at `path` is a conflict, and so is an .xdmf that this program did not write
-/// there. Errors: failed (a result whose arrays do not fit together), conflict, corrupt (something at `path`
-/// that is no case file), write_failed.
+/// a file with another input hash at `path` is a conflict, and so is what is no case
+/// file, or an .xdmf without one. Errors: failed (a result whose arrays do not fit together), conflict,
+/// write_failed.
 MaybeError write_case_file(const std::filesystem::path& path, const scene::Scene& scene,
                            const run::CaseResult& result, const Manifest& manifest);
 
 /// The file beside a case file by which ParaView opens its snapshots.
 std::filesystem::path sidecar_of(const std::filesystem::path& path);
-/// Why the result of an input may not be written there: something else is, such as the result of another one.
-/// Changes nothing. Errors: conflict, unreadable, corrupt.
-MaybeError obstacle_to_case_file(const std::filesystem::path& path, const Manifest& manifest);
-/// Why the file beside it may not be written: one is there that does not follow from the case file. Changes
-/// nothing. Errors: conflict.
-MaybeError obstacle_to_sidecar(const std::filesystem::path& path);
+/// Why the result of an input, with the file beside it where `has_sidecar`, may not be written there:
+/// something else is, such as the result of another one. Changes nothing. Errors: conflict.
+MaybeError obstacle_to_case_file(const std::filesystem::path& path, const Manifest& manifest,
+                                 bool has_sidecar);
 
 /// The bytes of a whole case file. Errors: failed (a result whose arrays do not fit together).
 Result<std::string> case_bytes(const scene::Scene& scene, const run::CaseResult& result,

@@ -19,8 +19,6 @@
 #include <mutex>
 #include <set>
 
-struct stat;
-
 namespace launchsafe::store {
 
 /// All that determines a result, as canonical text, and the name that follows from it.
@@ -35,9 +33,6 @@ class CaseIdentity {
   std::string input_, hash_;
 };
 
-/// Whether a text has the form of `CaseIdentity::hash`.
-bool is_case_hash(std::string_view text);
-
 /// What became of an attempt. A run that ended by itself is done, also when its energy drifted away: computed
 /// again it would do the same. Failed: it threw (memory, for example), and may succeed another time.
 enum class CaseState { done, failed, timed_out, interrupted };
@@ -50,15 +45,12 @@ struct RunRecord {
   std::string label;   ///< of the case, for people
   std::string reason;  ///< why it is not done
   int model_version = 0;
-  double wall_time = 0;          ///< s, of the run
-  double processor_time = 0;     ///< s, of the run
-  double predicted_updates = 0;  ///< particle updates that the plan foresaw, from which cost models learn
-  double time_limit = 0;         ///< s, of a case that was timed out
+  double wall_time = 0;       ///< s, of the run
+  double processor_time = 0;  ///< s, of the run
+  double time_limit = 0;      ///< s, of a case that was timed out
   /// Program that made the attempt, see `program_of`.
   std::string program;
-  std::string end_time;         ///< ISO 8601, UTC
-  std::uint64_t file_size = 0;  ///< bytes, of a case that is done
-  std::int64_t file_time = 0;   ///< ns since the epoch, modification time of the file
+  std::string end_time;  ///< ISO 8601, UTC
 };
 
 /// The names of a store's files.
@@ -70,8 +62,6 @@ struct StoreNames {
   std::filesystem::path case_file(const std::string& hash) const { return cases() / (hash + ".h5"); }
   std::filesystem::path results() const { return folder / ("study" + suffix() + ".db"); }
   std::filesystem::path status() const { return folder / ("status" + suffix() + ".json"); }
-  /// Ends the names of files that this part is writing.
-  std::string mark() const { return part.empty() ? "whole" : part; }
 
  private:
   std::string suffix() const { return part.empty() ? "" : "." + part; }
@@ -89,11 +79,10 @@ struct PlainTable {
 class CaseStore {
  public:
   /// Makes the folder and its results file, or goes on with it, and takes it for this process alone. A whole
-  /// study takes over what parts stored in the folder; a part, what a whole study did. Deletes what a killed
-  /// writer of this part left half written. Errors: conflict (another living process writes this part or the
-  /// whole, or any part for a whole study; named with host and process; or a file has a name that the store
-  /// needs and is none of ours, or is of another format: then nothing was made or changed), corrupt (the
-  /// results file is damaged; it stays as it is), write_failed, unreadable.
+  /// study takes over what parts stored in the folder, and deletes what killed writers left half written; a
+  /// part takes over what a whole study stored. Errors: conflict (another living process writes this part or
+  /// the whole, or any part for a whole study; or the results file is none of
+  /// ours, or of another format), corrupt (the results file is damaged), write_failed, unreadable.
   /// `part`: "1-of-4" of a shard; empty for a whole study. `on_failure` is called once, from any thread, when
   /// something cannot be written: the study has to end.
   static Result<std::unique_ptr<CaseStore>> open(const std::filesystem::path& folder,
@@ -101,7 +90,7 @@ class CaseStore {
                                                  std::function<void(const Error&)> on_failure = {});
   /// A store that only looks at what the last commits left in the files of all parts, also where nothing may
   /// be written: nothing is held, repaired or replaced. Only const members, `holds` and `load` may be called.
-  /// Errors: conflict (a process writes there; named with host, process and how far it is), corrupt,
+  /// Errors: conflict (a process writes there), corrupt,
   /// unreadable.
   static Result<std::unique_ptr<CaseStore>> open_to_read(const std::filesystem::path& folder);
   /// Flushes, then releases the results file.
@@ -114,19 +103,17 @@ class CaseStore {
   /// Those of all cases, in the order of their hashes.
   std::vector<RunRecord> records() const;
 
-  /// Whether the whole result of a case is there. A file of the size and modification time that its record
-  /// states is trusted; any other is read and checked, and recorded if it is whole but was not (a kill before
-  /// the commit). A damaged one does not count, see `remarks`, and the next result takes its place.
-  bool holds(const std::string& hash);
+  /// Whether the result of a case is there: a file under its name is whole. One that turned out to be damaged
+  /// does not count.
+  bool holds(const std::string& hash) const;
   /// The result of a case that is held, checked against its checksum, with the wall time from its record.
-  /// Errors: missing; corrupt (from now on it does not count); unreadable.
+  /// Errors: missing; corrupt (from now on it does not count, see `remarks`, and the next result takes its
+  /// place); unreadable.
   Result<run::CaseResult> load(const std::string& hash);
-  /// The text that determined a stored case. Errors as of `load`.
-  Result<std::string> input_of(const std::string& hash);
 
   /// Writes a result: the file under a temporary name, synced, renamed; then its record, committed. Host,
   /// times and wall time go to the record only, so that equal cases are equal files, bit by bit. `record`
-  /// gives label, wall time and prediction; the rest is filled in, also a model version and a wall time of 0.
+  /// gives label and wall time; the rest is filled in, also a model version and a wall time of 0.
   /// A result whose arrays do not fit together counts as something that cannot be written.
   void save(const CaseIdentity& identity, const scene::Scene& scene, run::CaseResult result,
             RunRecord record);
@@ -151,11 +138,10 @@ class CaseStore {
   std::vector<std::string> remarks() const;
   const std::filesystem::path& folder() const { return names_.folder; }
 
-  /// Takes over what another folder holds and this one does not: whole case files (as a second name of the
-  /// same file where the file system can), their records, answers; of cases that are done in neither, the
-  /// newest attempt. Damaged files there are left where they are and named in `remarks`. Errors: conflict (a
-  /// result there is of another model version, or a process writes there; no record was taken), missing (no
-  /// such store), corrupt, unreadable, write_failed.
+  /// Takes over what another folder holds and this one does not: case files (as a second name of the same
+  /// file where the file system can), their records, answers; of cases that are done in neither, the newest
+  /// attempt. Errors: conflict (a process writes there; no record was taken), missing (no such store),
+  /// corrupt, unreadable, write_failed.
   struct Imported {
     std::size_t cases = 0, already_there = 0;
   };
@@ -173,19 +159,10 @@ class CaseStore {
   MaybeError failure() const;
 
   void put(const RunRecord& record);
-  /// Whether the record states a file of this size and time.
-  bool knows(const std::string& hash, const struct stat& file) const;
-  /// Reads and checks a file of another size or time than its record states; records it if it is whole.
-  bool adopt(const std::string& hash);
-  /// A file that is corrupt, unless another thread has replaced it, counts no more. Returns its error.
-  Error give_up(const std::string& hash, const Error& damage);
-  bool is_given_up(const std::string& hash) const;
-  MaybeError write_file(const std::string& hash, std::string_view bytes);
-  /// Takes over the whole result of another folder: a second name of its file where the file system can.
+  /// Takes over the result of another folder: a second name of its file where the file system can.
   MaybeError take_file(const std::filesystem::path& file, const std::string& hash);
   /// When an attempt ended, and by which program and model it was made.
   void fill_in(RunRecord& record) const;
-  void remark(const std::string& text);
   void write_status(bool ended = false);
 
   const StoreNames names_;
@@ -193,8 +170,7 @@ class CaseStore {
   const Manifest manifest_;  ///< of every case, without its input
   const std::string host_;
   const bool writes_;
-  mutable std::mutex naming_;  ///< held while files get their names; locked before `using_`
-  mutable std::mutex using_;   ///< of all below
+  mutable std::mutex using_;  ///< of all below
   mutable Database database_;
   const std::string since_;  ///< ISO 8601, UTC
   std::shared_ptr<const nlohmann::ordered_json> progress_;
@@ -202,13 +178,10 @@ class CaseStore {
   MaybeError failure_;
   std::set<std::string> damaged_;  ///< hashes
   std::chrono::steady_clock::time_point batch_began_, status_written_;
-  bool has_said_who_ = false;
 };
 
 /// The results files in a folder, of the whole and of parts.
 std::vector<std::filesystem::path> results_files_in(const std::filesystem::path& folder);
-/// Whether a file of this name in a study's folder belongs to its store.
-bool is_store_name(std::string_view name);
 
 // --- status.json of a study's folder: how far the study is, since nobody else may read a results file that
 // is being written; every writer has a status of its own ---

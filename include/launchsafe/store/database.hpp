@@ -25,10 +25,8 @@ using SqlRow = std::vector<SqlValue>;
 class Database {
  public:
   /// Opens a file for this process alone, or makes it: the lock ends with the process, however that ends.
-  /// Links are not followed. What is no results file is left as it is.
+  /// What is no results file is left as it is.
   static Database open(const std::filesystem::path& path);
-  /// Throws why a file that is there may not be opened to write. Changes nothing.
-  static void demand_free(const std::filesystem::path& path);
   /// Whether a living process has the file open to write. Throws nothing.
   static bool is_held(const std::filesystem::path& path);
   /// An empty one in memory, whose messages name `path`.
@@ -43,10 +41,6 @@ class Database {
   /// The same for a statement that gives none.
   void run(const std::string& statement, const SqlRow& values = {}) { rows(statement, values); }
   bool has_table(const std::string& name);
-
-  /// Texts that repeat are stored once, in `stored_texts`; 0 stands for an empty one. The number follows from
-  /// the text, so that it means the same in every file.
-  std::int64_t number_of_text(const std::string& text);
 
   /// Takes the rows of another file: the newer ones of `stored_runs`, of which a result beats an attempt
   /// without one, and what it has more in the other `stored_` tables.
@@ -72,8 +66,6 @@ class Database {
   void copy_into(const std::string& schema, const std::filesystem::path& source);
   void check_format();
   void lock_and_prepare();
-  void make_tables();
-  void check_pages(const std::string& schema);
   void take_attached_rows();
   sqlite3_stmt* prepared(const std::string& statement);
   /// Runs a statement whose failure is of no consequence.
@@ -98,21 +90,16 @@ SqlValue to_sql(const Value& value) {
   }
 }
 
-/// False for what is no such value.
+/// The value of a column that was written with `to_sql`.
 template <class Value>
-bool from_sql(const SqlValue& stored, Value& value) {
+void from_sql(const SqlValue& stored, Value& value) {
   if constexpr (std::is_same_v<Value, double>) {
     const double* number = std::get_if<double>(&stored);
     value = number != nullptr ? *number : math::not_a_number;
-    return number != nullptr || std::holds_alternative<std::monostate>(stored);
   } else if constexpr (std::is_same_v<Value, std::string>) {
-    const std::string* text = std::get_if<std::string>(&stored);
-    if (text != nullptr) value = *text;
-    return text != nullptr;
+    value = std::get<std::string>(stored);
   } else {
-    const std::int64_t* number = std::get_if<std::int64_t>(&stored);
-    if (number != nullptr) value = static_cast<Value>(*number);
-    return number != nullptr && static_cast<std::int64_t>(value) == *number;
+    value = static_cast<Value>(std::get<std::int64_t>(stored));
   }
 }
 

@@ -1,6 +1,6 @@
 // Trees of labelled values in HDF5, written to and read from memory: disk errors never meet the library,
-// whose failed closes cannot be undone. `Hdf5Writer` and `Hdf5Reader` have the same member functions, so that
-// one description of a layout serves both. They throw the Error that names the place: failed or corrupt.
+// where a failed close cannot be undone. `Hdf5Writer` and `Hdf5Reader` have the same member functions, so
+// that one description of a layout serves both. They throw the Error that names the place: failed or corrupt.
 #pragma once
 
 #include "launchsafe/store/file.hpp"
@@ -68,7 +68,7 @@ class Hdf5File {
  protected:
   explicit Hdf5File(Error::Kind kind);
   hid_t here() const { return groups_.empty() ? file_.get() : groups_.back().get(); }
-  /// An identifier of what is called `name` here. Throws the library's reason where it is none.
+  /// An identifier of what is called `name` here. Throws where it is none.
   Hdf5Id checked(hid_t id, Hdf5Id::Closer closer, const std::string& name) const;
   /// The same for what a function of the library returns.
   void check(herr_t status, const std::string& name) const;
@@ -146,8 +146,6 @@ class Hdf5Reader : public Hdf5File {
   /// Number of groups and datasets in the group we are in.
   std::size_t size() const;
 
-  void attribute(const std::string& name, std::string& text);
-
   template <Hdf5Number Number>
   void value(const std::string& name, Number& value, const Label& = {}) {
     read(name, open(name, H5Tget_class(hdf5_type<Number>()), 0), hdf5_type<Number>(), &value);
@@ -176,8 +174,6 @@ class Hdf5Reader : public Hdf5File {
   Dataset open(const std::string& name, H5T_class_t type_class, std::size_t rank) const;
   void read(const std::string& name, const Dataset& set, hid_t type, void* data) const;
   std::vector<std::string> texts_of(const std::string& name, std::size_t rank) const;
-
-  std::size_t image_size_ = 0;
 };
 
 }  // namespace launchsafe::store

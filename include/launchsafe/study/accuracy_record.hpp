@@ -115,13 +115,10 @@ void find_bounds(const RecordedReference& reference, RecordedSetting& setting);
 /// K; skins of explosives stay below. A setting that gives more is not recorded.
 inline constexpr double highest_recorded_temperature = 5000.0;
 
-/// A record as text, with the SHA-256 of its content.
+/// A record as text.
 std::string to_json_text(const AccuracyRecord& record);
-/// A record from text; `file` is named in errors. Refused is what the program cannot have written: a text
-/// that was edited, so that its content has another digest; keys that are unknown, missing or given twice;
-/// values of another type or beyond any launch; settings that no scene may have; meshes that are no series;
-/// bounds that do not follow from what the settings gave. A digest guards against mistakes and idle edits,
-/// not against forgers.
+/// A record from text; `file` is named in errors. Refused are a record of another model version, missing
+/// keys, values of another type or beyond any launch, and settings that no scene may have.
 scene::Expected<AccuracyRecord> parse_accuracy_record(const std::string& text, const std::string& file);
 
 /// Why a record says nothing of a scene, whatever its setting and launch; empty where it may. At another

@@ -24,7 +24,6 @@ enum class ShareKind {
   peak_pressure,
   pulse_length,
   initial_temperature,
-  muzzle_exit,
   stated_inputs,
   load_curve,
   computation,
@@ -86,21 +85,18 @@ enum class GapReasonCode {
   none,              ///< it is one
   undefined,         ///< the temperature at `gap` is not a number
   end_of_search,     ///< no ignition up to `gap`
-  none_of_gaps,      ///< likewise, of so many `gaps`
   not_monotone,      ///< no ignition at `gap` again
   always,            ///< ignition at every gap
   failed,            ///< the run, `because`
   validity_warning,  ///< of the run or its input, `because`
-  longer_launch_failed,
-  coupled_failed,  ///< the coupled run at `gap`, `because`; traced was a bracket from `lower` to `upper`
+  coupled_failed,    ///< the coupled run at `gap`, `because`; traced was a bracket from `lower` to `upper`
   coupled_ignites,
   coupled_safe
 };
 struct GapReason {
   GapReasonCode code = GapReasonCode::none;
   double gap = math::not_a_number, lower = gap, upper = gap;  ///< m
-  std::size_t gaps = 0;
-  std::string because = {};  ///< what a run or an input says itself
+  std::string because = {};                                   ///< what a run or an input says itself
 };
 std::string text_of(const GapReason& reason);
 

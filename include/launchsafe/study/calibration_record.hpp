@@ -21,7 +21,6 @@ struct CalibrationRecord {
   std::string failure = {};  ///< why no constants meet the rows, and nothing below means anything; else empty
   Calibration calibration;
   bool load_fitted = false;               ///< the shape of the load is calibrated too, not only the constants
-  std::string references_digest = {};     ///< SHA-256 of the published rows and of what each was used for
   double ignition_lowest = not_a_number;  ///< K, T max without a trigger at the largest gap that is safe
   double ignition_highest = not_a_number;  ///< K, and at the smallest that ignites: T1 is in the middle
   /// K, below which 95 % of the misfits of temperatures lie, by so many that nothing was fitted to: Student's
@@ -41,10 +40,9 @@ inline constexpr std::array fitted_keys{"load.peak_time", "load.width", "load.st
 /// Of a calibration that found no constants.
 inline constexpr CalibrationEvidence no_evidence{not_a_number, not_a_number, not_a_number, not_a_number};
 
-/// The record as a file, with the SHA-256 of its content.
+/// The record as a file.
 std::string to_json_text(const CalibrationRecord& record);
-/// Refuses an edited record, one of another model version, and a scene that no reader takes. `file` is named
-/// in errors.
+/// Refuses a record of another model version, and a scene that no reader takes. `file` is named in errors.
 scene::Expected<CalibrationRecord> parse_calibration_record(const std::string& text, const std::string& file);
 
 /// Reads the record that a study names, if it names one, gives its load and constants to the scene, and notes

@@ -97,15 +97,6 @@ double numerical_share(const StudyCase& input, double gap, double rise);
 /// A skin that air and friction heat, and nothing else.
 surface::SkinModel without_reaction(surface::SkinModel model);
 
-/// The highest temperature of one station over the launch.
-struct StationTemperature {
-  std::string name;
-  double temperature = not_a_number;  ///< K
-};
-/// Of the stations that tile the bottom; observation points lie in them.
-std::vector<StationTemperature> station_temperatures(const surface::SkinHistory& skin,
-                                                     const trace::BottomTrace& trace);
-
 /// K by which all heat of friction between charge and base could heat the charge's surface: in the skin, or,
 /// where that is thinner, as deep as heat diffuses until the exit at a constant rate (Carslaw & Jaeger
 /// 1959, 2.9).
@@ -125,9 +116,6 @@ void evaluate(const Study& study, CaseOutcome& outcome);
 /// That of a case without a result: rows without numbers, and the reason.
 CaseOutcome without_result(const Study& study, const StudyCase& input, RunOutcome of_run,
                            std::string failure);
-
-/// The gaps of the study and the critical gap under its longer launch, on the mechanics of that one.
-void evaluate_longer_launch(const Study& study, const run::MechanicsResult& mechanics, CaseOutcome& outcome);
 
 /// What the confirmations say about the critical gap: a disagreement makes it indeterminate.
 void apply_confirmations(const Study& study, CaseOutcome& outcome);
@@ -175,10 +163,8 @@ CaseAnswer answer_of(const Study& study, const StudyCase& input, const run::Mech
 /// The answer of a case without a result.
 CaseAnswer failed_answer(const Study& study, const StudyCase& input, RunOutcome outcome, std::string failure);
 
-/// An answer that was read with its verdicts, which are not stored; nothing where it cannot be that of the
-/// study's case: by its gaps, margins and times, or by less uncertainty or fewer validity warnings than its
-/// input has.
-std::optional<CaseAnswer> judged(CaseAnswer answer, const Study& study, const StudyCase& input);
+/// An answer that was read with its verdicts, which are not stored.
+CaseAnswer judged(CaseAnswer answer, const Study& study, const StudyCase& input);
 
 /// An answer for every case; one that was not run, failed or belongs to another shard says so.
 std::vector<CaseAnswer> answer_cases(const StudyFile& study, const StudyOptions& options, Timing& timing,
@@ -192,9 +178,7 @@ CaseAnswer answer_from(const Study& study, const StudyCase& input, const std::ve
 /// Stores an answer in the place of one with the same key, which are hexadecimal digits.
 void save_answer(store::Database& database, const std::string& key, const CaseAnswer& answer);
 
-/// Exactly what was saved, its rows not judged; not finite numbers but infinity become NaN. Nothing where
-/// there is none, and for what was not written by this program as it is: another checksum, an unknown
-/// enumerator, a negative amount, numbers that contradict each other.
+/// Exactly what was saved, its rows not judged. Nothing where there is none.
 std::optional<CaseAnswer> read_answer(store::Database& database, const std::string& key);
 
 /// All that is stored of an answer.

@@ -65,8 +65,6 @@ Calibration shipped_calibration();
 // --- how the critical gap changes with the choice of the model, each calibrated on the same rows, and which
 // part of that counts as uncertainty of a verdict ---
 
-struct CalibrationRecord;
-
 /// A model beside the default one.
 struct ModelAlternative {
   std::string name, title;
@@ -82,22 +80,8 @@ struct ModelFormRecord {
   std::vector<ModelAlternative> alternatives;
 };
 
-/// What a model needs to stand in a record.
-struct ModelFormEntry {
-  std::string name, title;
-  const CalibrationRecord* calibration = nullptr;
-  scene::Scene scene;                    ///< of the model
-  std::vector<GapOrBound> critical_gap;  ///< m, for every pressure
-};
-/// Of models at the same peak pressures (Pa, increasing), the default first. Errors (a text): a default
-/// without constants; a scene that is not of its calibration; an alternative that is the default itself, or a
-/// model of another launch or of other published rows; stations that were compared with no finer mesh; no
-/// alternative in one of the kinds that ship: interfaces, friction closure, cracks, stations.
-scene::Expected<ModelFormRecord, std::string> make_model_form(const std::vector<ModelFormEntry>& entries,
-                                                              std::vector<double> peak_pressures);
-
 std::string to_json_text(const ModelFormRecord& record);
-/// Refuses an edited record and one of another model version. `file` is named in errors.
+/// Refuses a record of another model version. `file` is named in errors.
 scene::Expected<ModelFormRecord> parse_model_form(const std::string& text, const std::string& file);
 
 /// The peak pressures (Pa) from the lowest to the highest at which models were compared: those of a record,

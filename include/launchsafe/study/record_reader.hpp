@@ -1,21 +1,12 @@
-// Records that studies write for other studies, as JSON with a digest, read with distrust.
+// Records that studies write for other studies, as JSON.
 #pragma once
 
+#include "launchsafe/math/numbers.hpp"
 #include "launchsafe/scene/read_scene.hpp"
 
 #include <nlohmann/json.hpp>
 
 namespace launchsafe::study {
-
-/// A text for a message, shortened.
-std::string quoted(const std::string& text);
-/// A value for a message.
-std::string found_in(const nlohmann::ordered_json& value);
-
-/// A number within these limits, or null, which is NaN.
-struct OrNone {
-  scene::Limits limits;
-};
 
 /// An object of a record. One description of its keys, in their order, serves writing and reading. What is
 /// wrong with one that is read is thrown, an InputError.
@@ -31,17 +22,30 @@ class RecordObject {
 
   bool reading() const { return json_ != &written_; }
   [[noreturn]] void refuse(const std::string& key, std::string found, std::string allowed) const;
-  Json& operator[](const std::string& key) { return (*json_)[key]; }
-
-  /// A value, with what `read` has to know to take it.
-  template <class Value, class... Allowed>
-  void value(const std::string& key, Value& value, const Allowed&... allowed) {
-    if (reading())
-      read((*this)[key], key, value, allowed...);
-    else
-      (*this)[key] = value;
+  Json& operator[](const std::string& key) {
+    if (reading() && !(json_->is_object() && json_->contains(key)))
+      refuse(key, "nothing; the key is missing", "a value");
+    return (*json_)[key];
   }
-  /// Parts by their own descriptions; of a list `allowed` says how many there may be.
+
+  /// A value; a number that is none is null.
+  template <class Value>
+  void value(const std::string& key, Value& value) {
+    Json& given = (*this)[key];
+    if (!reading()) {
+      given = value;
+      return;
+    }
+    try {
+      if constexpr (std::is_same_v<Value, double>)
+        value = given.is_null() ? math::not_a_number : given.get<double>();
+      else
+        given.get_to(value);
+    } catch (const Json::exception&) {
+      refuse(key, "a value of another type", "that of a record");
+    }
+  }
+  /// Parts by their own descriptions.
   template <class Part, class Describe>
   void part(const std::string& key, Part& part, const Describe& describe) {
     if (reading())
@@ -50,15 +54,14 @@ class RecordObject {
       (*this)[key] = written(describe, part);
   }
   template <class Part, class Describe>
-  void list(const std::string& key, std::vector<Part>& parts, std::size_t fewest, std::size_t most,
-            const char* allowed, const Describe& describe) {
+  void list(const std::string& key, std::vector<Part>& parts, const Describe& describe) {
     Json& list = (*this)[key];
     if (!reading()) {
       list = Json::array();
       for (const Part& part : parts) list.push_back(written(describe, part));
       return;
     }
-    if (!list.is_array() || list.size() < fewest || list.size() > most) refuse(key, found_in(list), allowed);
+    if (!list.is_array()) refuse(key, "a value of another type", "an array");
     for (std::size_t i = 0; i < list.size(); ++i)
       read_object(list[i], path_of(key) + "." + std::to_string(i), parts.emplace_back(), describe);
   }
@@ -68,43 +71,20 @@ class RecordObject {
   /// "scene", as text; `what` says which it should be.
   void scene(scene::Scene& scene, const char* what);
 
-  // What stands at a key, with what is allowed of it.
-  void read(const Json& given, const std::string& key, double& number, const scene::Limits& limits);
-  void read(const Json& given, const std::string& key, double& number, const OrNone& allowed);
-  template <class Allowed>
-  void read(const Json& given, const std::string& key, std::vector<double>& numbers, const Allowed& allowed,
-            std::size_t fewest, std::size_t most) {
-    check_list(given, key, fewest, most);
-    numbers.resize(given.size());
-    for (std::size_t i = 0; i < numbers.size(); ++i)
-      read(given[i], key + "." + std::to_string(i), numbers[i], allowed);
-  }
-  void read(const Json& given, const std::string& key, int& whole, int lowest, int highest);
-  void read(const Json& given, const std::string& key, bool& flag);
-  void read(const Json& given, const std::string& key, std::string& text);
-
   template <class Value, class Describe>
   static Json written(const Describe& describe, Value value) {
     RecordObject object;
     describe(object, value);
     return object.written_;
   }
-  /// Takes an object with the keys of its description, those of `head` before them, and no others.
   template <class Value, class Describe>
-  static void read_object(Json& given, const std::string& path, Value& value, const Describe& describe,
-                          std::vector<std::string> head = {}) {
-    const Json known = written(describe, Value{});
-    for (const auto& [key, unused] : known.items()) head.push_back(key);
+  static void read_object(Json& given, const std::string& path, Value& value, const Describe& describe) {
     RecordObject object(given, path);
-    object.check_keys(head);
     describe(object, value);
   }
 
  private:
   std::string path_of(const std::string& key) const { return path_.empty() ? key : path_ + "." + key; }
-  void check_keys(const std::vector<std::string>& keys) const;
-  void check_list(const Json& given, const std::string& key, std::size_t fewest, std::size_t most) const;
-
   Json written_ = Json::object();
   Json* json_ = &written_;
   std::string path_;
@@ -113,34 +93,27 @@ class RecordObject {
 /// A kind of record.
 struct RecordFormat {
   const char *name, *file, *study;  ///< format and version; what its file is called; which study writes it
-  std::array<const char*, 2> head{"digest", "format"};  ///< as messages list them
 };
 
-/// The text as JSON of that format without a key given twice in one object, of which the parser would keep
-/// the last. Throws an InputError where it is none.
+/// The text as JSON of that format. Throws an InputError where it is none.
 nlohmann::ordered_json json_of(const std::string& text, const RecordFormat& format);
-/// Throws one where the digest of a file is not that of its content as it was understood.
-void check_digest(const nlohmann::ordered_json& object, const nlohmann::ordered_json& content);
-/// The record as a file: its content and the SHA-256 of it.
-std::string record_text(nlohmann::ordered_json content);
 
+/// The record as a file.
 template <class Record, class Describe>
-nlohmann::ordered_json content_by(const RecordFormat& format, const Describe& describe,
-                                  const Record& record) {
+std::string record_text(const RecordFormat& format, const Describe& describe, const Record& record) {
   nlohmann::ordered_json content{{"format", format.name}};
   content.update(RecordObject::written(describe, record));
-  return content;
+  return content.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
 }
 
-/// The record of a file. Refused are a text that is not its description's, and one that was edited.
+/// The record of a file. Refused is a text that is not its description's.
 template <class Record, class Describe>
 scene::Expected<Record> parse_record(const std::string& text, const std::string& file,
                                      const RecordFormat& format, const Describe& describe) {
   try {
     nlohmann::ordered_json object = json_of(text, format);
     Record record;
-    RecordObject::read_object(object, "", record, describe, {format.head[0], format.head[1]});
-    check_digest(object, content_by(format, describe, record));
+    RecordObject::read_object(object, "", record, describe);
     return record;
   } catch (scene::InputError& fault) {
     fault.file = file;

@@ -20,25 +20,14 @@ struct Progress {
   std::size_t done = 0, running = 0, total = 0;  ///< runs
   std::size_t cases = 0, cases_done = 0;         ///< of the study; done with those that failed
   std::size_t cases_failed = 0;
-  double cases_per_second = 0;  ///< since the first run began; 0 while nothing is known
-  double fraction = 0;          ///< of all work, 0..1, with the shares of running tasks
-  double seconds_left = -1;     ///< estimate; negative while nothing is known
+  double fraction = 0;       ///< of all work, 0..1, with the shares of running tasks
+  double seconds_left = -1;  ///< estimate; negative while nothing is known
 };
 /// Called from any running thread, one call at a time, a few times a second and at every change.
 using ProgressCallback = std::function<void(const Progress&)>;
 
 /// Cores this process may use: its CPU affinity, and the CPU quota of its control groups. At least 1.
 int available_cores();
-
-/// Threads for one run on so many cores that this process may use, on a machine of `processors`, of which
-/// other work keeps `busy`: those that are left, at least 1. Threads of a run wait for each other at every
-/// step, so that one which shares its core holds up all of them.
-int threads_beside(int cores, int processors, int busy);
-/// Of so many threads those that are worth while for a run of `particles`. Measured: two are slower than one
-/// for 2 000 particles, half as fast again for 4 000, and 1.8 times as fast for 9 000.
-int useful_threads(std::int64_t particles, int threads);
-/// Both for a run on this machine now. Results do not depend on it.
-int threads_for_one_run(std::int64_t particles);
 
 /// Adds up what tasks of several batches, and the cases that they are run for, report. How long the rest
 /// takes is learned from the time that the runs so far took for their work.
@@ -66,11 +55,9 @@ class ProgressTracker {
   ProgressCallback callback_;
   Clock clock_;
   std::mutex mutex_;
-  double first_start_ = -1;  ///< s, when the first task began
-  double busy_since_ = 0;    ///< s, up to when the running tasks are counted
-  double busy_ = 0;          ///< s, of all tasks together until then
+  double busy_since_ = 0;  ///< s, up to when the running tasks are counted
+  double busy_ = 0;        ///< s, of all tasks together until then
   std::size_t most_running_ = 0;
-  std::size_t cases_before_ = 0;  ///< done before the first task began
   Progress progress_;
   double cost_ = 0, cost_done_ = 0;
 };
@@ -79,28 +66,24 @@ class ProgressTracker {
 /// its control groups leaves. Infinity where neither can be read.
 double available_memory();
 
-/// What a task works with: a function to report the share done (0..1) with, and the threads that it may use.
-struct Allotment {
-  std::function<void(double)> report_share;
-  int threads = 1;
-};
+/// Takes the share of its work (0..1) that a task has done.
+using ReportShare = std::function<void(double)>;
 
 struct Task {
   double cost = 1;  ///< relative, > 0
-  std::function<void(const Allotment& allotment)> work;
-  double memory = 0;         ///< bytes while it runs
-  std::string refusal = {};  ///< why it must not be begun: that is its failure; empty for one that may
+  std::function<void(const ReportShare& report)> work;
+  double memory = 0;  ///< bytes while it runs
 };
 
 /// A task that waits, which is made when it is its turn to be begun: there may be a million.
 struct WaitingTask {
   double cost = 1;             ///< about that of the task
-  std::function<Task()> make;  ///< quick; what it throws is the reason why the task is refused
+  std::function<Task()> make;  ///< quick
 };
 
 struct TaskOutcome {
   bool started = false;  ///< false when the stop flag came first, or when it was refused
-  bool refused = false;  ///< it must not be begun, or is too large for the memory even alone: see `failure`
+  bool refused = false;  ///< it is too large for the memory even alone: see `failure`
   std::string failure;   ///< what an exception said, or why it was refused; empty when all went well
 };
 

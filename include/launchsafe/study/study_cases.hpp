@@ -95,9 +95,6 @@ scene::KeyDescription varied_key(const StudyFile& study, const std::string& name
 /// The value of a scene key that takes one number, SI.
 double number_in(const scene::SceneFile& file, const std::string& key);
 
-/// So many values, evenly spaced over a range with both its ends.
-std::vector<double> spaced_values(double from, double to, int count);
-
 /// Adds an axis over those values (SI) of a key, by its short or full name; none where there are no values.
 /// Refuses one that stands twice.
 void add_axis(StudyFile& study, const std::string& name, const std::string& study_key,
@@ -136,32 +133,5 @@ void check_count(const StudyFile& study, const std::string& key, double count, c
 
 /// The gaps of a study that judges some, where it has none itself: those of its scene.
 void settle_gaps(StudyFile& study);
-
-// --- limits of the gap that others found, beside the critical gaps of a study ---
-
-const std::vector<scene::Key<CitedLimit>>& cited_limit_keys();
-
-/// Reads [[cited_limit]] into Study::cited_limits.
-void read_cited_limits(const toml::table& root, StudyFile& study);
-
-/// A cited limit and the case of a study that stands nearest to it.
-struct LimitComparison {
-  CitedLimit limit;
-  /// Among the cases whose peak pressure is nearest to the limit's (or, where it has none, to that of the
-  /// study's scene), those with the scene's own defect if there are any: the one with the smallest critical
-  /// gap that is a value, or else the first. Nothing for a study without cases.
-  std::optional<std::size_t> nearest;
-  std::size_t cases = 0;  ///< among which that was chosen
-  /// m, its critical gap minus the limit; NaN where the critical gap is no value or the peak pressures differ
-  /// by more than pressure_slack
-  double difference = not_a_number;
-};
-
-/// Share of a peak pressure by which a case may differ from a limit that is cited at "about" a pressure.
-inline constexpr double pressure_slack = 0.01;
-
-/// Every cited limit of the study against the critical gaps of its cases, in their order.
-std::vector<LimitComparison> compare_with_limits(const StudyFile& study,
-                                                 const std::vector<const CriticalGap*>& critical);
 
 }  // namespace launchsafe::study

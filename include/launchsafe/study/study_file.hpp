@@ -163,21 +163,6 @@ struct Reference {
   bool ignited() const { return ignition_time == ignition_time; }
 };
 
-/// Straight line of maximum temperature against gap as published: slope in K per cm (as printed), intercept
-/// in K.
-struct ReferenceLine {
-  double slope = not_a_number;
-  double intercept = not_a_number;
-  bool given() const { return slope == slope && intercept == intercept; }
-};
-
-/// A limit of the gap as cited: a [[cited_limit]].
-struct CitedLimit {
-  double gap = not_a_number;            ///< m, > 0
-  double peak_pressure = not_a_number;  ///< Pa; NaN where none was stated
-  std::string source;                   ///< who found what, and how
-};
-
 /// An uncertainty that a study states by hand, and on what grounds.
 struct StatedUncertainty {
   std::string key;                ///< "numerical_uncertainty"
@@ -186,9 +171,6 @@ struct StatedUncertainty {
   double assumed = not_a_number;  ///< K, at the least, where it is not stated
 };
 
-/// The launch under a raised load, for the spread of the peak pressure.
-enum class RaisedLoad { launched, interpolated };
-
 /// What a study file says, in SI.
 struct Study {
   KindTraits kind;
@@ -196,18 +178,15 @@ struct Study {
   /// defaults.
   std::shared_ptr<std::any> settings;
   std::string title;
-  bool demonstration = false;  ///< its shell or its launch is invented
   std::string scene;           ///< path of the scene from the study file's folder, as the user wrote it
   double early_time = 10e-3;   ///< s; an instant at which temperatures are compared too
   std::vector<Reference> references;
-  ReferenceLine reference_line;
-  std::vector<CitedLimit> cited_limits;
   std::string references_file;  ///< path of a file with them, from the study file's folder; or empty
 
   // every kind that judges gaps
   std::vector<double> gaps;  ///< m; those of the scene where the file has none
 
-  /// Histories of all cases are kept for the report, and the longer launch is run too, where there is one.
+  /// Histories of all cases are kept for the report.
   bool in_detail = false;
 
   std::vector<Axis> axes;     ///< of a full factorial the last is the fastest; none for other kinds
@@ -231,7 +210,6 @@ struct Study {
   double fit_uncertainty = not_a_number;
   /// K, of T max by what is not known of the launch, for the study's own scene; NaN: not stated
   double input_uncertainty = not_a_number;
-  RaisedLoad raised_load = RaisedLoad::launched;
 
   std::vector<StatedUncertainty> stated;  ///< by hand, as written
 

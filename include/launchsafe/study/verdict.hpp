@@ -25,7 +25,6 @@ struct CaseStatements {
                                           ///< first what is foreign to it
   /// m, up to which a gap lies within it.
   double calibrated_gap = math::infinity;
-  bool demonstration = false;  ///< of something that was invented
 
   /// Of the study's record of other models; not known where there is none.
   ModelFormShift model_form{math::not_a_number, math::not_a_number, {}};
@@ -120,43 +119,17 @@ struct Judgement {
 
 /// T = intercept + slope * gap, gap in cm as the paper prints it.
 struct Line {
+  std::string name;
   double intercept = not_a_number;         ///< K
   double slope = not_a_number;             ///< K/cm
-  std::vector<double> residuals;           ///< K, data minus line
-  double root_mean_square = not_a_number;  ///< K, of the residuals
+  double root_mean_square = not_a_number;  ///< K, of data minus line
+  /// Standard errors of least squares, K and K/cm; NaN where no row is to spare, and for another line.
+  double intercept_error = not_a_number, slope_error = not_a_number;
 };
 
-/// A curve by least squares, and how well each row follows from the others. NaN where there are too few rows.
-struct FittedCurve {
-  std::string name;
-  int coefficients = 0;
-  double root_mean_square = not_a_number;  ///< K, of the residuals
-  /// K, of what each row is off the curve through the other rows.
-  double left_out = not_a_number;
-  /// Akaike's criterion with the correction of Hurvich and Tsai (Biometrika 76, 1989) for few rows.
-  double corrected_akaike = not_a_number;
-};
-
-struct GapFit {
-  std::vector<double> gaps;          ///< m
-  std::vector<double> temperatures;  ///< K
-  math::LeastSquares least_squares;  ///< coefficients: intercept (K), slope (K/cm)
-  Line ordinary;                     ///< the same as a line
-  std::optional<Line> mixed;  ///< slope of least squares through the zero-gap row; only where there is one
-  std::optional<Line> published;  ///< the study's reference line
-  std::vector<double> left_out;   ///< K, of each row less what the line through the others has there
-  /// m, where the line reaches the ignition temperature, and half the width of the band of 95 % there; NaN
-  /// where it does not rise, or has no band.
-  double reaches_ignition = not_a_number, reaches_ignition_half_width = not_a_number;
-  /// The straight line, a parabola, and the line with the heat of reaction of a skin at the line's
-  /// temperature. None where no line has a row to spare.
-  std::vector<FittedCurve> curves;
-};
-
-/// Nothing for fewer than two gaps (m), or numbers that are not finite.
-std::optional<GapFit> fit_gaps(const std::vector<double>& gaps, const std::vector<double>& temperatures,
-                               const materials::KineticsParameters& kinetics,
-                               const ReferenceLine& published = {});
+/// The line of least squares, and the one of its slope through the zero-gap row, which is how the paper
+/// prints it, where there is such a row. None for fewer than two gaps (m), or numbers that are not finite.
+std::vector<Line> fit_gaps(const std::vector<double>& gaps, const std::vector<double>& temperatures);
 
 /// A skin with one constant as calibrated.
 struct AsCalibrated {
@@ -202,22 +175,19 @@ std::string to_string(surface::IgnitionCause cause);
 
 /// A row of the verdict table, and all that its verdict rests on.
 struct GapVerdict {
-  double gap = 0;                      ///< m
-  Peak maximum;                        ///< over the stations: what the verdict uses
-  Peak until_exit;                     ///< the same until scene::read_time: what a reference is compared with
-  Peak early;                          ///< the same at Study::early_time
-  double spread = not_a_number;        ///< K, over the stations at scene::read_time
-  double early_spread = not_a_number;  ///< K, at Study::early_time
-  double margin = not_a_number;        ///< K, to the ignition temperature
+  double gap = 0;                ///< m
+  Peak maximum;                  ///< over the stations: what the verdict uses
+  Peak until_exit;               ///< the same until scene::read_time: what a reference is compared with
+  Peak early;                    ///< the same at Study::early_time
+  double spread = not_a_number;  ///< K, over the stations at scene::read_time
+  double margin = not_a_number;  ///< K, to the ignition temperature
   double heated = not_a_number;  ///< K, T max of a skin that air and friction heat and that never reacts
   std::vector<AsCalibrated> as_calibrated;  ///< with foreign constants of the surface as calibrated
   surface::AirEnergy air;  ///< what the skin took from the air; NaN where nothing was computed
   Uncertainty uncertainty;
   std::optional<NamedIgnition> ignition;        ///< at an observation point
   std::shared_ptr<const CaseEvidence> of_case;  ///< without it nothing is safe
-  double when_over =
-      not_a_number;  ///< K, T max when a launch that is cut short goes on until it is over; NaN for others
-  std::vector<std::string> models;  ///< titles of other models that could change the verdict
+  std::vector<std::string> models;              ///< titles of other models that could change the verdict
   Judgement judgement;
   std::optional<Reference> reference;
   /// K, margin with the constants of the surface as calibrated; infinite where they are, minus infinite where
@@ -283,12 +253,6 @@ struct Confirmation {
   bool agrees() const { return completed && ignited == expected_ignition; }
 };
 
-/// The same case on other terms, which stands beside the answer and gives no verdict.
-struct OtherAnswer {
-  std::vector<double> maximum_temperature;  ///< K, of the charge's surface, for every gap of the study
-  CriticalGap critical;                     ///< without an uncertainty
-};
-
 /// How the mechanical run behind an answer went.
 struct RunSummary {
   run::RunStatus status = run::RunStatus::completed;
@@ -322,10 +286,7 @@ struct CaseOutcome : CaseAnswer {
   /// K, T max without a gap of a skin that never reacts; NaN where nothing was computed.
   double heated_without_gap = not_a_number;
   std::vector<Confirmation> confirmations;
-  std::optional<GapFit> fit;  ///< over the rows that do not ignite
-  /// Of the longer launch (scene::longer_launch), where there is one; indeterminate where that run did not
-  /// complete.
-  std::optional<OtherAnswer> longer_launch;
+  std::vector<Line> lines;  ///< over the rows that do not ignite
 };
 
 }  // namespace launchsafe::study

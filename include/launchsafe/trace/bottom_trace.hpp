@@ -8,14 +8,14 @@
 
 namespace launchsafe::trace {
 
-/// A ring of the charge's bottom, over which pressure and strain are averaged before the skin's temperature
-/// is integrated; or an observation point, at which they are read. Verdicts rest on the rings, which tile the
-/// whole bottom.
+/// An annulus of the charge's bottom, over which pressure and strain are averaged before the skin's
+/// temperature is integrated; or an observation point, at which they are read. Verdicts rest on the annuli,
+/// which tile the whole bottom.
 struct Station {
   std::string name;          ///< "S1".. from the wall to the axis; of observation points that of the scene
-  double x = 0, r = 0;       ///< initial position; of a ring the middle of its width, on the bottom, m
-  double area = 0;           ///< of the ring, m2 (per metre in plane strain); 0 for observation points
-  bool observation = false;  ///< false for a ring
+  double x = 0, r = 0;       ///< initial position; of an annulus the middle of its width, on the bottom, m
+  double area = 0;           ///< of the annulus, m2; 0 for observation points
+  bool observation = false;  ///< false for an annulus
 };
 
 /// Friction closures whose heat a trace carries: all that heat.
@@ -26,11 +26,10 @@ inline constexpr std::size_t traced_closures = materials::friction_closures.size
 /// sample.
 struct BottomTrace {
   std::vector<Station> stations;
-  std::vector<double> time;                   ///< s
-  std::vector<double> chamber_pressure;       ///< Pa
-  std::vector<double> bottom_pressure;        ///< Pa, area mean of the axial compression over the bottom row
-  std::vector<double> mean_chamber_pressure;  ///< Pa, over the interval ending here (first entry: the value)
-  std::vector<double> mean_bottom_pressure;   ///< Pa, likewise
+  std::vector<double> time;                  ///< s
+  std::vector<double> chamber_pressure;      ///< Pa
+  std::vector<double> bottom_pressure;       ///< Pa, area mean of the axial compression over the bottom row
+  std::vector<double> mean_bottom_pressure;  ///< Pa, over the interval ending here (first entry: the value)
   /// friction[closure][sample * stations + station]: friction energy since the start, J per m3 of charge,
   /// with localisation 1 (bulk).
   std::array<std::vector<double>, traced_closures> friction;
@@ -50,28 +49,11 @@ BottomTrace thinned(const BottomTrace& trace);
 /// the pressure of a launch quasi-statically. Pressures and energies stay.
 BottomTrace stretched(BottomTrace trace, double factor);
 
-/// The same history in which what follows an instant (s) comes later by `delay` (s): the state of that
-/// instant holds until then. With a negative delay it comes sooner, and what lies between is left out.
-BottomTrace delayed(const BottomTrace& trace, double instant, double delay);
-
 /// A history as far from `trace` as `other` is, on the other side: a^2/b for every pressure and energy a of
 /// `trace` and b of `other`. Nothing where the two do not have the same samples and stations.
 std::optional<BottomTrace> mirrored(const BottomTrace& trace, const BottomTrace& other);
 
-/// The history of a launch under a load, as its peak pressure (Pa).
-struct LoadedTrace {
-  double load;
-  const BottomTrace& trace;
-};
-
-/// That of a load near `own` and `other`, linear in the load between them, with every pressure and energy
-/// higher by the most by which the same estimate has missed, until then, the middle one of these two and
-/// `third` beside them, and by no less than a leap between `own` and `other`. At the times of `own`. Nothing
-/// where the three have other stations, or their ends lie farther apart than two samples.
-std::optional<BottomTrace> at_load(double load, const LoadedTrace& own, const LoadedTrace& other,
-                                   const LoadedTrace& third);
-
-/// The rings alone, which tile the bottom: what is asked of them costs half without observation points.
+/// The annuli alone, which tile the bottom: what is asked of them costs half without observation points.
 BottomTrace of_rings(BottomTrace trace);
 
 /// The samples up to a time (s) alone.
