@@ -44,7 +44,7 @@ std::string told_by(const StudyEvidence& study) {
   if (study.study.contains("verdicts")) return study.study.contains("runs") ? tells::launch : tells::sweep;
   if (first_has("settings", "temperature_bound_K")) return tells::accuracy;
   if (study.study.contains("indices")) return tells::sensitivity;
-  if (first_has("cases", "invariants")) return tells::stability;
+  if (study.kind == "stability") return tells::stability;
   return tells::nothing;
 }
 
