@@ -73,8 +73,7 @@ std::string fault_of_word(const std::string& given, const CLI::App& command, con
     known.clear();
     allowed = "no more arguments";
   }
-  if (!others.empty())
-    elsewhere = fmt::format("; {} is an option of {}", word, fmt::join(others, ", "));
+  if (!others.empty()) elsewhere = fmt::format("; {} is an option of {}", word, fmt::join(others, ", "));
   std::string nearest = word == "help" ? "--help" : scene::nearest_of(word, known);
   if (name.empty() && word.ends_with(".toml")) nearest = "launchsafe study " + word;
   return scene::InputError{{}, 0, 0, name, '"' + word + '"', allowed, nearest}.message() + elsewhere;

@@ -30,8 +30,8 @@ std::vector<Series> station_series(const trace::BottomTrace& trace, const std::v
     Series series{.x = x, .style = Style::line, .colour = grey};
     for (std::size_t sample = 0; sample < x.size(); ++sample)
       series.y.push_back(values[sample * trace.stations.size() + annulus]);
-    const bool is_named =
-        annulus == annuli.front() || annulus == annuli.back() || annulus == annuli[annuli.size() / 2] || annulus == marked;
+    const bool is_named = annulus == annuli.front() || annulus == annuli.back() ||
+                          annulus == annuli[annuli.size() / 2] || annulus == marked;
     if (!is_named) {
       background.push_back(std::move(series));
       continue;
@@ -93,7 +93,8 @@ Plot profile_plot(const DrawnCase& drawn, std::optional<double> time) {
       return shown_value(trace.stations[annulus].r, distance_from_axis.form);
     };
     for (const std::size_t annulus : annuli_of(trace))
-      series.add(place_of(annulus), surface::temperature_at_time(skin, trace, annulus, std::min(instant, last)));
+      series.add(place_of(annulus),
+                 surface::temperature_at_time(skin, trace, annulus, std::min(instant, last)));
     const auto [lowest, highest] = std::ranges::minmax_element(series.y);
     spread = std::max(spread, *highest - *lowest);
   }

@@ -2,8 +2,9 @@
 
 #include "posix_file.hpp"
 
-#include <cerrno>
 #include <sqlite3.h>
+
+#include <cerrno>
 
 namespace launchsafe::store {
 namespace {

@@ -275,12 +275,11 @@ TEST_F(NeverSafe, GapsInTheDrawingAreRefused) {
       R"(  { name = "ring", material = "steel", x = "67.8 to 74 cm", r = "3.1 to 7.75 cm" },)";
   const std::string tail =
       R"(  { name = "tail", material = "steel", x = "71 to 74 cm", r = "0 to 7.75 cm" },)";
-  for (const Drawing& each :
-       {Drawing{R"(x = "67.84 to 74 cm", r = "0 to 7.75 cm")", "", "gap.thickness"},
-        {R"(x = "68.8 to 74 cm", r = "0 to 7.75 cm")", "", "gap.thickness"},
-        {R"(x = "67.8000001 to 74 cm", r = "0 to 7.75 cm")", "", "body.base.x"},
-        {R"(x = "67.8 to 74 cm", r = "0 to 3 cm")", ring, "gap.thickness"},
-        {R"(x = "67.8 to 70 cm", r = "0 to 7.75 cm")", tail, "body.tail.x"}}) {
+  for (const Drawing& each : {Drawing{R"(x = "67.84 to 74 cm", r = "0 to 7.75 cm")", "", "gap.thickness"},
+                              {R"(x = "68.8 to 74 cm", r = "0 to 7.75 cm")", "", "gap.thickness"},
+                              {R"(x = "67.8000001 to 74 cm", r = "0 to 7.75 cm")", "", "body.base.x"},
+                              {R"(x = "67.8 to 74 cm", r = "0 to 3 cm")", ring, "gap.thickness"},
+                              {R"(x = "67.8 to 70 cm", r = "0 to 7.75 cm")", tail, "body.tail.x"}}) {
     write_edited(drawn(each.base, each.more));
     const Outcome outcome = run({"study", "study.toml", "-o", "drawn"});
     EXPECT_EQ(outcome.code, 2) << each.base;

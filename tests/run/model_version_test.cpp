@@ -3,7 +3,8 @@
 //
 // Where a change of numbers is meant: raise model_version, let this test write model_numbers.csv anew
 // (LAUNCHSAFE_MODEL_NUMBERS=FILE in the environment names where to), and add a line to `digests`. No line of
-// it ever changes, but for scenes that leave the program: the test holds the file to the digest of the version that it names.
+// it ever changes, but for scenes that leave the program: the test holds the file to the digest of the
+// version that it names.
 
 #include "launchsafe/materials/ideal_gas.hpp"
 #include "launchsafe/materials/kinetics.hpp"

@@ -178,8 +178,8 @@ struct Study {
   /// defaults.
   std::shared_ptr<std::any> settings;
   std::string title;
-  std::string scene;           ///< path of the scene from the study file's folder, as the user wrote it
-  double early_time = 10e-3;   ///< s; an instant at which temperatures are compared too
+  std::string scene;          ///< path of the scene from the study file's folder, as the user wrote it
+  double early_time = 10e-3;  ///< s; an instant at which temperatures are compared too
   std::vector<Reference> references;
   std::string references_file;  ///< path of a file with them, from the study file's folder; or empty
 
