@@ -142,7 +142,4 @@ const std::map<std::string, std::string>& help_texts();
 /// A text for people, of such facts as programs have as JSON: "estimate.txt"; also a file: "scene.toml".
 std::string told(const std::string& name, const Json& facts);
 
-/// The record of reports/calibrate_table8.
-extern const char* const shipped_calibration;
-
 }  // namespace launchsafe::app

@@ -45,7 +45,6 @@ NamedTexts files_of(const Json& values) {
   NamedTexts files;
   for (const char* name : {"scene.toml", "critical_gap.toml", "accuracy.toml"})
     files.push_back({name, told(name, values)});
-  files.push_back({"calibration.json", shipped_calibration});
   return files;
 }
 

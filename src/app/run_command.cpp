@@ -126,6 +126,7 @@ Json case_json(const scene::Scene& scene, const run::CaseResult& result) {
   for (const GapRow& row : rows_of(result)) object["gaps"].push_back(gap_json(row));
   object["combustion"] = report::json_rows(report::combustion_table(result));
   if (!mechanics.monitor.empty()) object["energy"] = energy_json(mechanics.monitor.back().energy);
+  object["effects"] = report::json_of(report::launch_effects(), mechanics);
   for (const run::Limiter& each : run::limiters)
     object["limiters"][each.name] = mechanics.limiters.*each.member;
   for (const run::MaterialMass& each : mechanics.masses) object["mass"][each.material + "_kg"] = each.mass;

@@ -222,7 +222,7 @@ std::vector<Failure> accuracy_failures(const AccuracyResult& result) {
 Kind accuracy_kind() {
   return {
       .traits = {.name = "accuracy", .gives_verdicts = false, .bounds_critical_gaps = false},
-      .keys = joined({gaps_keys(), judging_keys(), calibration_record_keys(), own_keys(accuracy_keys)}),
+      .keys = joined({gaps_keys(), judging_keys(), own_keys(accuracy_keys)}),
       .tables = {{"settings", {}}, {variant_key, {}}},
       .make_cases = make_accuracy_cases,
       .run = outcome_of<run_accuracy, accuracy_failures>,

@@ -1,121 +1,158 @@
-// A study of kind calibration as a file: its keys, its cases, and which published rows it fits to.
+// A study of kind calibration as a file: its keys, what it fits, and what its published rows must have.
 #include "calibration_parts.hpp"
 
+#include <boost/algorithm/string.hpp>
+
 namespace launchsafe::kinds {
-
-using study::fitted_keys;
-
 namespace {
+
+Key<CalibrationSettings> weight_key(std::string name, std::string sentence,
+                                    double CalibrationSettings::*weight) {
+  return number_key(std::move(name), Dimension::temperature_difference, above_to(0, 1000), Standing::assumed,
+                    std::move(sentence), weight);
+}
+
+const std::vector<Key<CalibrationSettings>> calibration_keys{
+    text_key("fit", Standing::input,
+             "Keys that are found by least squares, each with one positive number where the search starts: "
+             "of the scene, or of a face of the charge, such as interface.side.friction.",
+             "load.peak_time, load.width, friction.localisation", &CalibrationSettings::fit),
+    weight_key("temperature_weight", "Standard deviation of a published temperature.",
+               &CalibrationSettings::temperature_weight),
+    weight_key("spread_weight", "Standard deviation of a published spread over the charge's bottom.",
+               &CalibrationSettings::spread_weight),
+    weight_key("place_weight", "By how much a published hottest place may be colder than the computed one.",
+               &CalibrationSettings::place_weight),
+    text_key("file", Standing::input, "Name of the constants file that is written beside the page.",
+             "constants.toml", &CalibrationSettings::file),
+};
+
+std::vector<Key<CalibrationSettings>> range_keys() {
+  std::vector<Key<CalibrationSettings>> keys;
+  for (const auto& [name, interval] : CalibrationSettings{}.range)
+    keys.push_back(text_key<CalibrationSettings>(
+        "range." + name, Standing::input, "Interval of this input in which the constants hold.",
+        "400 to 550 MPa", [name](auto& settings) -> auto& { return settings.range.at(name); }));
+  return keys;
+}
+
+void check_file(const StudyFile& study) {
+  const std::filesystem::path file = settings_of<CalibrationSettings>(study).file;
+  if (file.filename() != file || file.extension() != ".toml")
+    refuse_at(study, "file", '"' + file.string() + '"', "the name of a file without folders, with .toml");
+}
+
+// --- the rows ---
 
 [[noreturn]] void refuse_rows(const StudyFile& study, std::string found, std::string allowed) {
   const char* at = study.places.contains("reference.0.gap") ? "reference.0.gap" : "kind";
   throw error_at(place_of_key(study, at), "reference", std::move(found), std::move(allowed));
 }
 
-/// What a fit of the load needs besides: a bell, and no fewer numbers than unknowns.
-void check_fit_of_load(const StudyFile& study, const CalibrationTargets& targets) {
-  constexpr const char* key = "load_fitted";
-  const Load& load = study.scene.scene.load;
-  const bool is_measured = !load.curve_time.empty();
-  if (is_measured || load.shape != scene::LoadShape::bell)
-    refuse_at(study, key,
-              is_measured ? "a measured curve" : fmt::format("a load of shape \"{}\"", word_of(load.shape)),
-              "load.shape = \"bell\" without load.curve, whose peak time, width and steepness are fitted");
-  const std::size_t numbers = fitted_numbers(targets.zero_gap) + fitted_numbers(targets.wide_gap);
-  if (numbers < fitted_keys.size())
-    refuse_at(study, key,
-              fmt::format("{} numbers in the calibrated rows for {} unknowns", numbers, fitted_keys.size()),
-              "no fewer of maximum_temperature, early_temperature, rise_begins and rise_ends in both rows "
-              "together");
+void check_rows(const StudyFile& study) {
+  const std::vector<Reference>& rows = study.study.references;
+  if (rows.empty() || !(largest_safe(study).gap < smallest_igniting(study).gap))
+    refuse_rows(study, "no row that ignites, or not only above one that does not",
+                "rows with an ignition_time, all at larger gaps than at least one without");
+  if (!std::isfinite(largest_safe(study).maximum_temperature))
+    refuse_rows(study, "no maximum_temperature of the largest gap that does not ignite", "a row with it");
+  const auto& points = study.scene.scene.output.observation_points;
+  for (const Reference& row : rows)
+    for (const std::string& point : {row.point, row.early_point})
+      if (row.gap == 0.0 && !point.empty() && keys::find_named(points, point) == nullptr)
+        refuse_rows(study, "the point \"" + point + '"', "an observation point of the scene");
 }
 
-const std::vector<Key<CalibrationSettings>> calibration_keys{
-    list_key("meshes", Dimension::length, between(1e-5, 1), Standing::assumed,
-             "Cell sizes, each a mechanical run; the scene's if absent.", &CalibrationSettings::meshes),
-    flag_key("load_fitted", Standing::assumed,
-             "Fit peak time, width and steepness of the load's bell too, with the constants by least "
-             "squares, to the highest temperatures over the launch and at early_time (0.5 K) and to the two "
-             "instants of the fast rise (0.5 ms) of the calibrated rows.",
-             &CalibrationSettings::load_fitted),
-    text_key("frozen_at", Standing::input,
-             "Where rule and weights of the calibration were settled before its fit, for the report.",
-             "1fd14b4", &CalibrationSettings::frozen_at),
-};
-
-/// Constants that were fitted to the rows of another launch would pass as those of this one. A model of the
-/// launch is free, and what is fitted.
-void check_launch_of_rows(const StudyFile& study) {
+/// Whether the rows' launch must have an input as the scene that is calibrated: not a setting, a model of the
+/// launch, or what constants hold.
+bool is_of_launch(const KeyDescription& key, const std::vector<FittedKey>& fitted) {
   using enum keys::Part;
-  const bool load_fitted = settings_of<CalibrationSettings>(study).load_fitted;
+  const auto is_fitted = [&](const FittedKey& each) { return each.description.name == key.name; };
+  const keys::Part part = key.role().part;
+  return (part == constant || part == range || part == load_shape) &&
+         std::ranges::count(constant_keys(), key.name) == 0 && std::ranges::none_of(fitted, is_fitted);
+}
+
+/// Constants that were fitted to the rows of another launch would pass as those of this one.
+void check_launch_of_rows(const StudyFile& study) {
+  const std::vector<FittedKey> fitted = keys_to_fit(study);
   for (std::size_t i = 0; i < study.study.references.size(); ++i) {
     const std::string& name = study.study.references[i].scene;
     if (name.empty()) refuse_rows(study, "a row without scene", "the scene of its launch in each row");
     const Place place = place_of_key(study, fmt::format("reference.{}.scene", i));
     const auto folder = std::filesystem::path(place.file).parent_path();
-    const Scene of_row =
-        taken(scene::read_scene(scene::named_file(folder, name, place, "reference.scene", "a scene file")))
-            .scene;
-    for (const study::Difference& each : study::differences(study.scene.scene, of_row)) {
-      const keys::Part part = each.key.role().part;
-      const bool is_fitted = load_fitted && std::ranges::count(fitted_keys, each.key.name) > 0;
-      if (part == constant || part == range || (part == load_shape && !is_fitted))
+    const SceneFile of_row =
+        taken(scene::read_scene(scene::named_file(folder, name, place, "reference.scene", "a scene file")));
+    for (const study::Difference& each : study::differences(study.scene.scene, of_row.scene))
+      if (is_of_launch(each.key, fitted))
         throw error_at(place, "reference.scene",
                        fmt::format("\"{}\" with {} = {}, and {} in the scene of the study", name,
                                    each.key.name, scene::format_value(each.key, each.recorded),
                                    scene::format_value(each.key, each.value)),
                        "rows of the launch that is calibrated, or a scene of theirs in the study");
-    }
   }
 }
 
-void make_calibration_cases(const StudySource& source, StudyFile& study) {
+void make_calibration_case(const StudySource& source, StudyFile& study) {
   read_references(source, study);
-  add_axis(study, "numerics.cell_size", "meshes", settings_of<CalibrationSettings>(study.study).meshes);
-  calibration_targets(study);
+  check_file(study);
   check_launch_of_rows(study);
+  check_rows(study);
   make_factorial(study);
-  for (std::size_t i = 0; i < study.cases.size(); ++i)
-    study.cases.relabel(i, fmt::format("{:.6g} mm", 1e3 * study.cases[i].cell_size()));
 }
 
-std::vector<Failure> failed_runs(const CalibrationResult& result) {
-  std::vector<Failure> failures;
-  for (const CalibrationRun& run : result.runs) add_failure(failures, run.input.label, run);
-  return failures;
+std::vector<Failure> failed_calibration(const CalibrationResult& result) {
+  if (result.failure.empty()) return {};
+  return {{"calibration", result.failure, result.run.outcome}};
+}
+
+/// A key that a study fits, in the scene; throws what is wrong with it.
+FittedKey key_to_fit(const StudyFile& study, const std::string& name) {
+  constexpr const char* fit = "fit";
+  const auto refuse = [&](const std::string& found, const std::string& allowed) {
+    refuse_at(study, fit, name + ", " + found, allowed);
+  };
+  const Scene& scene = study.scene.scene;
+  const std::string in_scene = scene::key_in_scene(scene, name);
+  if (in_scene.empty()) refuse("a face that no body of the scene bears on", "a face that one does");
+  FittedKey key{name, taken(scene::describe_key(study.scene, in_scene, place_of_key(study, fit)), fit), 0.0};
+  if (key.description.kind != scene::KeyKind::number)
+    refuse("which takes no number", "keys with one positive number");
+  const auto* of_scene = scene::find_key(scene::scene_keys(), in_scene);
+  if (of_scene != nullptr && !of_scene->is_used(scene))
+    refuse("which does nothing in this scene", "keys that do something in it");
+  key.start = std::get<double>(scene::value_in(study.scene, in_scene));
+  if (!(key.start > 0.0))
+    refuse("which is " + scene::format_value(key.description, key.start) + " in the scene",
+           "a positive number to start from, in the scene or in [set]");
+  return key;
 }
 
 }  // namespace
 
-CalibrationTargets calibration_targets(const StudyFile& study) {
-  CalibrationTargets targets;
-  double safe = -1.0, igniting = 1e300;
-  int zero = 0, wide = 0;
-  for (const Reference& row : study.study.references) {
-    if (row.ignited()) {
-      igniting = std::min(igniting, row.gap);
-      continue;
-    }
-    safe = std::max(safe, row.gap);
-    if (!row.calibrated) continue;
-    const bool is_zero = row.gap == 0.0;
-    ++(is_zero ? zero : wide);
-    (is_zero ? targets.zero_gap : targets.wide_gap) = row;
-    if (!std::isfinite(row.maximum_temperature))
-      refuse_rows(study, "a calibrated row without maximum_temperature", "one with it");
+std::vector<FittedKey> keys_to_fit(const StudyFile& study) {
+  std::vector<std::string> names;
+  boost::algorithm::split(names, settings_of<CalibrationSettings>(study).fit, boost::is_any_of(", "),
+                          boost::token_compress_on);
+  std::vector<FittedKey> fitted;
+  for (const std::string& name : names) {
+    if (name.empty() || std::ranges::count(names, name) > 1)
+      refuse_at(study, "fit", name.empty() ? "no key" : name + " twice", "at least one key, each once");
+    fitted.push_back(key_to_fit(study, name));
   }
-  if (zero != 1 || wide != 1)
-    refuse_rows(study, fmt::format("{} calibrated rows at gap 0 and {} at other gaps", zero, wide),
-                "one calibrated row at gap 0 (sets the localisation) and one at another gap that does not "
-                "ignite (sets the exchange time)");
-  if (igniting > 1.0 || !(safe < igniting))
-    refuse_rows(study, igniting > 1.0 ? "no row that ignites" : "a row that ignites below one that does not",
-                "rows with an ignition_time, all at larger gaps than the rows without");
-  targets.safe_gap = safe;
-  targets.igniting_gap = igniting;
-  targets.load_fitted = settings_of<CalibrationSettings>(study).load_fitted;
-  targets.early_time = study.study.early_time;
-  if (targets.load_fitted) check_fit_of_load(study, targets);
-  return targets;
+  return fitted;
+}
+
+const Reference& largest_safe(const StudyFile& study) {
+  return *std::ranges::max_element(study.study.references, {}, [](const Reference& row) {
+    return row.ignited() ? -math::infinity : row.gap;
+  });
+}
+
+const Reference& smallest_igniting(const StudyFile& study) {
+  return *std::ranges::min_element(study.study.references, {}, [](const Reference& row) {
+    return row.ignited() ? row.gap : math::infinity;
+  });
 }
 
 Kind calibration_kind() {
@@ -124,10 +161,10 @@ Kind calibration_kind() {
                  .judges_gaps = false,
                  .gives_verdicts = false,
                  .bounds_critical_gaps = false},
-      .keys = joined({reference_keys(), own_keys(calibration_keys)}),
+      .keys = joined({reference_keys(), own_keys(calibration_keys), own_keys(range_keys())}),
       .tables = {reference_table()},
-      .make_cases = make_calibration_cases,
-      .run = outcome_of<run_calibration, failed_runs>,
+      .make_cases = make_calibration_case,
+      .run = outcome_of<run_calibration, failed_calibration>,
       .results = calibration_results,
   };
 }

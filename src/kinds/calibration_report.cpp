@@ -3,201 +3,136 @@
 #include "launchsafe/report/case_tables.hpp"
 
 namespace launchsafe::kinds {
-
-using study::StationConvergence;
-
 namespace {
 
-/// What tells one calibration from another.
-const Quantities<CalibrationRow> calibration_setting_quantities{
-    {quantity::cell_size, &CalibrationRow::cell_size},
-    {quantity::closure, [](const CalibrationRow& row) { return study::to_string(row.closure); }}};
-
-const Quantities<SurfaceConstants> constant_quantities{
-    {quantity::localisation, &SurfaceConstants::localisation},
-    {quantity::exchange_time, &SurfaceConstants::exchange_time},
-    {quantity::ignition_temperature, &SurfaceConstants::ignition_temperature}};
-
-Quantities<CalibrationRow> calibration_quantities() {
-  return joined<CalibrationRow>(
-      {calibration_setting_quantities,
-       of_part<CalibrationRow>(constant_quantities, &CalibrationRow::calibrated,
-                               &CalibratedConstants::constants),
-       {{"ignition_lowest", "T1 from", fixed(2, kelvin), "T max, untriggered, of the largest safe gap.",
-         &CalibrationRow::calibrated, &CalibratedConstants::ignition_lowest},
-        {"ignition_highest", "to", fixed(2, kelvin), "T max, untriggered, of the smallest igniting gap.",
-         &CalibrationRow::calibrated, &CalibratedConstants::ignition_highest},
-        {"rms", "RMS", fixed(2, kelvin), "Root mean square over temperatures that nothing was fitted to.",
-         &CalibrationRow::root_mean_square},
-        {"remark", "remark", text(), "Why there are no constants.", &CalibrationRow::failure}}});
-}
-
-/// Numbers are in the unit of the row.
-Quantities<ComparedNumber> compared_quantities() {
-  const auto form = [](const ComparedNumber& row) { return fixed(2, row.in_seconds ? millisecond : kelvin); };
-  const auto in_unit = [form](auto member) {
-    return [=](const ComparedNumber& row) { return shown_value(std::invoke(member, row), form(row)); };
-  };
-  return {{quantity::subject, &ComparedNumber::quantity},
-          {quantity::gap, &ComparedNumber::gap},
-          {"computed", "computed", fixed(2), "Computed number.", in_unit(&ComparedNumber::computed)},
-          {keys::always({"published", "published", fixed(2), "Published number."}),
-           in_unit(&ComparedNumber::published)},
-          {"computed_minus_published", "computed - published", fixed(2), "Their difference.",
-           in_unit(&ComparedNumber::misfit)},
-          {quantity::unit, [form](const ComparedNumber& row) { return form(row).unit; }},
-          {quantity::used_for, &ComparedNumber::use}};
-}
-
-/// Every published number beside what one row computes: with what it was used for, and the model's rival.
-Table compared_table(const CalibrationResult& result, const CalibrationRow& row) {
-  const Row facts{{"without_rows", result.study.study.references.empty()}};
-  return table_of(
-      fmt::format("Against the published results: {}, {}", in_words(row.cell_size, quantity::cell_size.form),
-                  study::to_string(row.closure)),
-      compared_quantities(), row.compared, said("calibration.note.compared", facts));
-}
-
-Row stations_json(const StationConvergence& stations) {
-  Row json = json_of<StationConvergence>(
-      {{named("change_to_finer", quantity::change_to_finer), &StationConvergence::finer},
-       {named("change_from_coarser", quantity::change_from_coarser), &StationConvergence::coarser}},
-      stations);
-  json["converge"] = stations.converges();
-  return json;
-}
-
-/// What `list` of all rows has, in one table, for other programs.
-template <class Compared>
-Table table_of_all(const std::vector<CalibrationRow>& rows, const Quantities<Compared>& quantities,
-                   std::vector<Compared> CalibrationRow::*list) {
-  return table_of({}, with_whole(calibration_setting_quantities, quantities), parts_of<Compared>(rows, list));
-}
-
-/// A constant that was calibrated, beside that of the scene.
+/// A constant that was fitted, as people read it.
 struct ConstantRow {
-  std::string key, calibrated, in_scene;
-  double difference = not_a_number;  ///< as a share of the calibrated one
+  std::string key, fitted, start;
+  double deviation = not_a_number;  ///< standard deviation of its logarithm
 };
 
-const Quantities<ConstantRow> scene_quantities{
-    {"key", "key", text(), "Key of the scene.", &ConstantRow::key},
-    {"calibrated", "calibrated", text(), "Its calibrated value.", &ConstantRow::calibrated},
-    {"in_the_scene_now", "in the scene now", text(), "What the scene has.", &ConstantRow::in_scene},
-    {"difference", "difference", fixed(2, percent), "By how much the scene's is above the calibrated.",
-     &ConstantRow::difference}};
+const Quantities<ConstantRow> constant_quantities{
+    {"key", "key", text(), "Key of the scene, or of a face of the charge.", &ConstantRow::key},
+    {"fitted", "fitted", text(), "Its fitted value.", &ConstantRow::fitted},
+    {"deviation", "standard deviation", fixed(2, percent), "How well the rows determine it.",
+     &ConstantRow::deviation},
+    {"start", "start", text(), "Where the search started.", &ConstantRow::start}};
 
-bool has_load(const CalibrationResult& result) { return result.load && result.load->failure.empty(); }
+/// Numbers are in the unit of the row.
+const Quantities<FittedNumber> number_quantities{
+    {quantity::gap, &FittedNumber::gap},
+    {quantity::subject, &FittedNumber::quantity},
+    {"computed", "computed", fixed(2), "Computed number.", &FittedNumber::computed},
+    {"published", "published", fixed(2), "Published number.", &FittedNumber::published},
+    {"computed_minus_published", "computed - published", fixed(2), "Their difference.",
+     &FittedNumber::misfit},
+    {quantity::unit, &FittedNumber::unit},
+    {quantity::used_for,
+     [](const FittedNumber& row) { return row.is_fitted ? study::Use::fitted : study::Use::check; }}};
 
-Row load_json(const CalibrationResult& result) {
-  if (!result.load) return nullptr;
-  const Quantities<FittedLoad> quantities{
-      {quantity::load_peak_time, &FittedLoad::bell, &Load::peak_time},
-      {quantity::load_width, &FittedLoad::bell, &Load::width},
-      {quantity::load_steepness, &FittedLoad::bell, &Load::steepness},
-      {"numbers", "numbers", count(), "Published numbers that were fitted to.", &FittedLoad::numbers},
-      {"sum_of_squares", "sum of squares", fixed(2), "Of what is left, over the weights.",
-       &FittedLoad::sum_of_squares},
-      {"condition", "condition", fixed(0), "Of the fit, in logarithms.", &FittedLoad::condition},
-      {"runs", "runs", count(), "Mechanical runs that it took.", &FittedLoad::runs},
-      {quantity::reason, &FittedLoad::failure}};
-  Row json = json_of(quantities, *result.load);
-  json["covariance_of_logarithms"] = result.load->covariance;
-  json["frozen_at"] = settings_of<CalibrationSettings>(result.study).frozen_at;
-  return json;
+std::vector<ConstantRow> constant_rows(const CalibrationResult& result) {
+  std::vector<ConstantRow> rows;
+  if (!result.constants) return rows;
+  const std::size_t count = result.fitted.size();
+  for (std::size_t i = 0; i < count; ++i) {
+    const auto& [name, key, start] = result.fitted[i];
+    rows.push_back({name, scene::format_value(key, result.constants->values.at(name)),
+                    scene::format_value(key, start),
+                    std::sqrt(result.constants->covariance[i * (count + 1)])});
+  }
+  return rows;
 }
 
-std::string fit_text(const CalibrationResult& result) {
-  if (!has_load(result)) return {};
-  Row facts = load_json(result);
-  facts.update({{"temperature_weight_K", temperature_weight},
-                {"instant_weight_ms", shown_value(instant_weight, significant(6, millisecond))}});
-  return said_below("calibration.fit", facts);
+/// The published numbers whose quantity begins so; of several of one quantity that which is missed most.
+Row numbers_json(const Constants& constants, const std::string& begin) {
+  Row list = Row::array();
+  for (const FittedNumber& row : constants.rows) {
+    const auto is_worse = [&](const FittedNumber& other) {
+      return other.quantity == row.quantity && std::abs(other.misfit()) > std::abs(row.misfit());
+    };
+    if (row.quantity.starts_with(begin) && std::ranges::none_of(constants.rows, is_worse))
+      list.push_back(json_of(number_quantities, row));
+  }
+  return list;
+}
+
+/// Where the charge's bottom is hottest without a gap, and where that was published to be.
+Row places_json(const CalibrationResult& result) {
+  const Scene& scene = result.constants->scene;
+  const BottomTrace& trace = result.run.result.mechanics.trace;
+  const auto history = surface::integrate_skin(surface::skin_model(scene), trace, 0.0);
+  Row list = Row::array();
+  for (const Reference& row : result.study.study.references)
+    for (const auto& [time, place] : {std::pair{scene::read_time(scene.load), row.point},
+                                      std::pair{result.study.study.early_time, row.early_point}}) {
+      const trace::Station* published = keys::find_named(trace.stations, place);
+      if (row.gap != 0.0 || published == nullptr) continue;
+      const std::size_t hottest = surface::maximum_at_time(history, trace, time).station;
+      list.push_back({{"time", report::milliseconds(time)},
+                      {"computed", report::centimetres(trace.stations[hottest].r)},
+                      {"published", report::centimetres(published->r)}});
+    }
+  return list;
+}
+
+/// Facts for the texts of the page.
+Row facts_of(const CalibrationResult& result) {
+  Row facts{{"failure", result.failure}};
+  if (!result.constants) return facts;
+  const Constants& constants = *result.constants;
+  for (const ConstantRow& row : constant_rows(result))
+    facts["constants"].push_back(row.key + " " + row.fitted);
+  facts.update({{"file", constants.name},
+                {"lowest_K", constants.ignition_lowest},
+                {"highest_K", constants.ignition_highest},
+                {"middle_K", constants.scene.charge().kinetics.ignition_temperature},
+                {"numbers", result.fit.residuals.size()},
+                {"sum_of_squares", result.fit.sum_of_squares()},
+                {"condition", result.fit.condition},
+                {"temperatures", numbers_json(constants, "T at ")},
+                {"spreads", numbers_json(constants, "spread")},
+                {"places", places_json(result)},
+                {"ignition", numbers_json(constants, "ignition time")},
+                {"safe", numbers_json(constants, "largest T")}});
+  facts["safe"][0]["ignites"] =
+      constants.rows.back().computed >= constants.scene.charge().kinetics.burnt_temperature;
+  return facts;
+}
+
+std::vector<ReportTable> tables_of(const CalibrationResult& result) {
+  std::vector<report::NamedRun> runs;
+  if (!result.label.empty())
+    runs.push_back({result.label, result.run.failure, &result.run.result.mechanics, {}});
+  const std::vector<FittedNumber> rows = result.constants.value_or(Constants{}).rows;
+  return {
+      {table_of("Constants that were fitted", constant_quantities, constant_rows(result)), "", "constants"},
+      {table_of("Against the published results", number_quantities, rows), "compared.csv", "compared"},
+      {report::run_table(runs), "", "runs", Shown::page}};
 }
 
 }  // namespace
 
-Table run_table(const std::vector<CalibrationRun>& runs) {
-  return report::run_table(of_each(runs, [](const CalibrationRun& each) {
-    return report::NamedRun{each.input.label, each.failure, &each.mechanics(), {}};
-  }));
-}
-
-Table constants_table(const CalibrationResult& result) {
-  if (!result.recommended()) return {};
-  const CalibrationRow& row = *result.recommended();
-  const SurfaceConstants &fitted = row.calibrated.constants, &now = result.in_scene;
-  std::vector<ConstantRow> rows{{"friction.closure", study::to_string(row.closure),
-                                 study::to_string(result.study.scene.scene.surface.friction)}};
-  const auto add = [&rows](std::string key, double value, double held, const keys::Unit& unit = {}) {
-    rows.push_back({std::move(key), in_words(value, significant(6, unit)),
-                    in_words(held, significant(6, unit)), (held - value) / value});
-  };
-  add("friction.localisation", fitted.localisation, now.localisation);
-  add("gap.exchange_time", fitted.exchange_time, now.exchange_time, millisecond);
-  if (has_load(result)) {
-    const Load &bell = *result.load->bell, &held = result.study.scene.scene.load;
-    add("load.peak_time", bell.peak_time, held.peak_time, millisecond);
-    add("load.width", bell.width, held.width, millisecond);
-    add("load.steepness", bell.steepness, held.steepness);
-  }
-  add("kinetics.ignition_temperature", fitted.ignition_temperature, now.ignition_temperature, kelvin);
-  return table_of("Constants the scene should hold", scene_quantities, rows,
-                  said("calibration.note.constants", json_of(calibration_setting_quantities, row)));
-}
-
 std::string answer(const CalibrationResult& result) {
-  Row facts{{"reason", result.reason}, {"load", load_json(result)}};
-  if (const CalibrationRow* row = result.recommended()) {
-    facts["row"] = json_of(calibration_setting_quantities, *row);
-    facts["row"].update(json_of(constant_quantities, row->calibrated.constants));
-  }
-  return said("calibration.answer", facts).front();
+  return said("calibration.answer", facts_of(result)).front();
 }
 
 Report report_of(const CalibrationResult& result) {
+  const Row facts = facts_of(result);
   Report report{result.study.study.title, answer(result), report::remaking_command(result.study)};
-  if (const auto record = record_of(result))
-    report.files.push_back({"calibration.json", study::to_json_text(*record)});
-  report.say(said_below("calibration.stations", stations_json(result.stations)));
-  report.add({constants_table(result), "", "constants"});
-  report.say(fit_text(result));
-  const CalibrationRow* recommended = result.recommended();
-  if (recommended != nullptr) {
-    const MisfitBound misfits = misfit_bound(*recommended);
-    report.say(said_below("calibration.misfits", {{"count", misfits.count},
-                                                  {"root_mean_square_K", misfits.root_mean_square},
-                                                  {"factor", misfits.factor},
-                                                  {"bound_K", misfits.bound()}}));
-  }
-  report.add({table_of("Calibrated constants, and how far they miss what nothing was fitted to",
-                       calibration_quantities(), result.rows, said("calibration.note.calibrations")),
-              "calibration.csv", "calibrations"});
-  // Of the row that is recommended; the file has all.
-  if (recommended != nullptr) report.add({compared_table(result, *recommended)});
-  report.add({table_of_all(result.rows, compared_quantities(), &CalibrationRow::compared), "compared.csv",
-              "compared", Shown::file});
+  const std::vector<ReportTable> tables = tables_of(result);
+  report.say(said_below("calibration.check", facts));
+  report.add(tables[0]);
+  report.say(said_below("calibration.fit", facts));
+  report.add(tables[1]);
   report.say("## Setup\n\n" + report::setup_text(result.study));
-  report.add({run_table(result.runs), "", "runs", Shown::page});
+  report.add(tables[2]);
   report.say(report::timing_sentence(result.timing));
-  Row recommendation{{"reason", result.reason}, {"row", nullptr}};
-  if (result.recommended_row) recommendation["row"] = *result.recommended_row;
-  Row in_scene{{"closure", study::to_string(result.study.scene.scene.surface.friction)}};
-  in_scene.update(json_of(constant_quantities, result.in_scene));
-  report.json = study_json(result.study, report,
-                           {{"recommendation", recommendation},
-                            {"in_scene", in_scene},
-                            {"load", load_json(result)},
-                            {"stations", stations_json(result.stations)},
-                            {"timing", report::timing_json(result.timing)}});
+  if (result.constants) report.files.push_back({result.constants->name, scene::to_toml(*result.constants)});
+  report.json =
+      study_json(result.study, report, {{"found", facts}, {"timing", report::timing_json(result.timing)}});
   return report;
 }
 
-std::vector<ReportTable> calibration_results() {
-  return {{table_of({}, scene_quantities, {}), "", "constants"},
-          {table_of({}, calibration_quantities(), {}), "calibration.csv", "calibrations"},
-          {table_of_all({}, compared_quantities(), &CalibrationRow::compared), "compared.csv", "compared"},
-          {report::run_table({}), "", "runs"}};
-}
+std::vector<ReportTable> calibration_results() { return tables_of({}); }
 
 }  // namespace launchsafe::kinds

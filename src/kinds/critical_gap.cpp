@@ -18,24 +18,6 @@ std::string label_with_skin(const CaseOutcome& outcome, double gap) {
   return fmt::format("{}, coupled at {}", outcome.input.label, centimetres(gap));
 }
 
-/// One case on its runs: the mechanics, and those under a raised load where there are.
-CaseOutcome judged(const Study& study, const StudyCase& input, std::vector<FinishedRun> runs) {
-  if (const FinishedRun* run = run_without_result(runs))
-    return without_result(study, input, run->outcome, run->failure);
-  CaseOutcome outcome;
-  outcome.input = input;
-  outcome.outcome = runs.front().outcome;
-  outcome.failure = runs.front().failure;
-  outcome.result.mechanics = std::move(runs.front().result.mechanics);
-  if (runs.size() > 1 && outcome.completed()) {
-    outcome.raised = std::move(runs[1].result.mechanics);
-    outcome.raised->monitor.clear();
-    outcome.raised->snapshots.clear();
-  }
-  evaluate(study, outcome);
-  return outcome;
-}
-
 void take_confirmation(const CaseOutcome& outcome, const FinishedRun& run, Confirmation& confirmation) {
   confirmation.ran = true;
   confirmation.outcome = run.outcome;
@@ -95,7 +77,7 @@ void run_in_detail(CriticalGapResult& result, const StudyOptions& options) {
   tracker.expect(0, foreseen);
   run_cases(runs, options, tracker, result.timing, [&](std::size_t i, std::vector<FinishedRun>& finished) {
     for (const std::size_t member : runs[i].members) {
-      result.details[member] = judged(study.study, study.cases[member], finished);
+      result.details[member] = outcome_from(study.study, study.cases[member], finished);
       result.details[member].hash = finished.front().hash;
     }
   });
@@ -167,7 +149,7 @@ Kind critical_gap_kind() {
   return {
       .traits = {.name = "critical-gap", .keeps_answers = true},
       .keys = joined({reference_keys(), gaps_keys(), own_keys(critical_gap_keys), judging_keys(),
-                      calibration_record_keys(), uncertainty_keys()}),
+                      uncertainty_keys(), models_keys()}),
       .tables = {reference_table(), vary_table()},
       .varies = {.values = true},
       .make_cases = make_critical_gap_cases,

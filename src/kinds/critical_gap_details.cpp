@@ -4,7 +4,7 @@
 
 namespace launchsafe::kinds {
 
-using study::AsCalibrated, study::Confirmation, study::Line;
+using study::AsCalibrated, study::Confirmation, study::Line, study::ModelGap;
 
 namespace {
 
@@ -62,6 +62,13 @@ const auto line_quantities = with_whole(
          "Standard error of the intercept by least squares.", &Line::intercept_error},
         {"rms", "RMS", fixed(2, kelvin), "Root mean square of the residuals.", &Line::root_mean_square}});
 
+const auto model_rows = with_whole(
+    case_quantities,
+    Quantities<ModelGap>{{"model", "constants", text(), "Other constants of the launch.", &ModelGap::name},
+                         {"critical_gap_of_model", "critical gap", text(), "Critical gap under them.",
+                          [](const ModelGap& model) { return report::gap_text(model.critical_gap); }},
+                         {quantity::reason, &ModelGap::failure}});
+
 Table as_calibrated_table(const CriticalGapResult& result) {
   std::vector<CalibratedRow> rows;
   for (const CaseOutcome& outcome : result.details)
@@ -113,6 +120,8 @@ std::vector<ReportTable> detail_tables(const CriticalGapResult& result) {
     return report::NamedGap{outcome.input.label, &outcome.critical};
   });
   return {{as_calibrated_table(result), "", "as_calibrated", Shown::page},
+          {table_of("Other models", model_rows, parts_of<ModelGap>(result.details, &CaseOutcome::models)), "",
+           "other_models", Shown::page},
           {report::gap_share_table(cases), "", "gap_shares", Shown::page},
           {fit_table(result), "", "fit"}};
 }

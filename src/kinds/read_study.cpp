@@ -142,10 +142,10 @@ study::AccuracyRecords settle_scene(const StudySource& source, const std::vector
                                     StudyFile& study) {
   study.scene = taken(scene::read_scene(scene::named_file(
       source.folder, study.study.scene, place_of_key(study, "scene"), "scene", "a scene file")));
+  use_constants(study, source.folder);
   for (const OverrideTable& each : overrides) apply_overrides(each, study);
-  use_calibration(study, source.folder);
   scene::check_expected_velocity(study.scene);
-  read_model_form(study, source.folder);
+  read_models(study, source.folder);
   study::AccuracyRecords records = read_records(study, source.folder);
   const double wanted = source.tolerance.value_or(study.study.setting_tolerance);
   if (std::isfinite(wanted)) choose_setting(study, records, wanted);
@@ -183,6 +183,7 @@ Expected<StudyFile> read_study_table(const StudySource& source, const std::strin
   const study::AccuracyRecords records = settle_scene(source, {{"set", source.root.get("set")}}, study);
   settle_cases(source, kind, keys, study);
   if (!study.study.kind.own_scenes) settle_uncertainty(study, records);
+  check_models(study);
   if (study.study.title.empty()) study.study.title = study.scene.scene.title;
   return study;
 } catch (const InputError& error) {

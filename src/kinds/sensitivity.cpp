@@ -30,7 +30,7 @@ void check_limits(const StudyFile& study, const std::vector<double>& coordinates
     const std::string value = format_quantity(coordinates[i], key.dimension);
     if (axis.distribution->kind == math::Distribution::Kind::log_normal)
       refuse_at(study, axis.study_key, fmt::format("a sample of {} {}", key.name, value),
-                "the record of a calibration that knows it better: " + allowed_text(key));
+                "constants that are better known: " + allowed_text(key));
     refuse_at(study, axis.values_key, fmt::format("a sample of {}", value),
               "a range that cuts the normal off: " + allowed_text(key));
   }
@@ -185,10 +185,9 @@ Kind sensitivity_kind() {
                  .gives_verdicts = false,
                  .bounds_critical_gaps = false,
                  .keeps_answers = true},
-      .keys = joined({gaps_keys(), judging_keys(), calibration_record_keys(), uncertainty_keys(),
-                      own_keys(sensitivity_keys)}),
+      .keys = joined({gaps_keys(), judging_keys(), uncertainty_keys(), own_keys(sensitivity_keys)}),
       .tables = {vary_table()},
-      .varies = {.distributions = true, .needed = "with key and distribution, or a calibration"},
+      .varies = {.distributions = true, .needed = "with key and distribution, or the key constants"},
       .make_cases = make_sensitivity_cases,
       .run = outcome_of<run_sensitivity, failures_of<SensitivityResult>>,
       .results = sensitivity_results,

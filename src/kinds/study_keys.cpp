@@ -81,12 +81,6 @@ const std::vector<Key<Reference>> published_row_keys{
     reference_number("rise_begins", Dimension::time, "From when on its highest temperature rises fast.",
                      &Reference::rise_begins),
     reference_number("rise_ends", Dimension::time, "Until when it rises fast.", &Reference::rise_ends),
-    flag_key("calibrated", Standing::input,
-             "True where constants, and a load that is fitted, are fitted to it.", &Reference::calibrated),
-    flag_key("selection", Standing::input,
-             "True where its other numbers were seen when a form of the model was picked; they are held out "
-             "if not.",
-             &Reference::selection),
 };
 
 /// Reads the file of references that a study names, which several may share.
@@ -128,6 +122,11 @@ const StudyKeys& common_keys() {
       text_key("scene", Standing::input, "Path of the scene from the study file's folder.",
                "scene_155mm.toml", &Study::scene) |
           required(),
+      text_key(
+          "constants", Standing::input,
+          "Name of shipped constants, or path of a constants file from the study file's folder, in place "
+          "of those of the scene.",
+          "155mm", &Study::constants),
       study_number("early_time", Dimension::time, above_to(0, 1),
                    "An instant at which temperatures are listed and compared too.", &Study::early_time),
   };
@@ -163,14 +162,6 @@ StudyKeys judging_keys() {
                           &Study::numerical_uncertainty, study::assumed_numerical_uncertainty)});
 }
 
-StudyKeys calibration_record_keys() {
-  return {
-      text_key("calibration", Standing::input,
-               "Path of the record of a calibration, calibration.json, from the study file's folder; its "
-               "load and constants replace the scene's, and hold where the calibrated launch is the study's.",
-               "../reports/calibrate_table8/calibration.json", &Study::calibration_record)};
-}
-
 StudyKeys uncertainty_keys() {
   const StudyKeys records{
       text_key("accuracy", Standing::input,
@@ -182,10 +173,6 @@ StudyKeys uncertainty_keys() {
                    "Replaces the scene's numerics by the cheapest setting of the record that knows the "
                    "maximum temperature to this; on the command line --tolerance.",
                    &Study::setting_tolerance),
-      text_key("model_form", Standing::input,
-               "Path of the record of other models, model_form.json, from the study file's folder; it says "
-               "how far they move the critical gap towards ignition.",
-               "models/model_form.json", &Study::model_form_record),
   };
   return joined(
       {records,
@@ -198,11 +185,16 @@ StudyKeys uncertainty_keys() {
                           "Uncertainty of the maximum temperature from what is not known of the launch (see "
                           "kind sensitivity), for the study's own scene; if absent an assumed spread of load "
                           "and initial temperature is propagated, which takes a second run for every case.",
-                          &Study::input_uncertainty, study::assumed_temperature_spread),
-       stated_uncertainty("model_form_uncertainty",
-                          "By how much other models of the launch could be hotter, instead of such a record; "
-                          "an assumed one if absent.",
-                          &Study::model_form_uncertainty, study::assumed_model_form)});
+                          &Study::input_uncertainty, study::assumed_temperature_spread)});
+}
+
+StudyKeys models_keys() {
+  return {
+      text_key("models", Standing::input,
+               "Other constants, \"a, b\": names, or paths of constants files from the study file's "
+               "folder. Every case is launched under each of them too, and how far its critical gap moves "
+               "counts as uncertainty.",
+               "bonded_base, wall_friction", &Study::model_names)};
 }
 
 StudyKeys reference_keys() {

@@ -4,8 +4,8 @@
 #include "launchsafe/kinds/kind.hpp"
 #include "launchsafe/report/quantities.hpp"
 #include "launchsafe/report/study_text.hpp"
-#include "launchsafe/study/calibration_record.hpp"
 #include "launchsafe/study/case_answer.hpp"
+#include "launchsafe/study/constants_of_study.hpp"
 
 namespace launchsafe::kinds {
 
@@ -22,7 +22,7 @@ using report::centimetres, report::Column, report::digits_of, report::in_words, 
     report::ShownKey, report::Style, report::Table, report::table_of;
 using run::MechanicsResult;
 using scene::format_quantity, scene::Load, scene::Scene;
-using study::Axis, study::CalibrationRecord, study::RunOutcome, study::Verdict;
+using study::Axis, study::RunOutcome, study::Verdict;
 using study::CaseAnswer, study::CaseOutcome, study::CriticalGap, study::CriticalGapKind, study::FinishedRun,
     study::GapVerdict, study::not_a_number, study::of_each, study::Reference, study::RunSummary, study::Study,
     study::StudyCase, study::StudyFile, study::StudyOptions;
@@ -99,7 +99,9 @@ std::string status_of(const CaseAnswer& answer);
 
 /// Why there is no critical gap, or why it is a bound; else empty.
 inline std::string gap_remark(const CaseAnswer& answer) {
-  return answer.completed() ? text_of(answer.critical.reason) : answer.failure;
+  if (!answer.completed()) return answer.failure;
+  const std::string reason = text_of(answer.critical.reason), failed = failed_models(answer.models);
+  return reason.empty() || failed.empty() ? reason + failed : reason + "; " + failed;
 }
 
 /// Where a case lies, or its label if it has no coordinates.
@@ -180,9 +182,9 @@ Read taken(Expected<Read> read, const std::string& table = {}) {
 /// Keys of every kind, with the kind itself.
 const StudyKeys& common_keys();
 /// Gaps to judge; how the critical gap is sought, and gaps are judged besides; where the constants come from;
-/// what the uncertainty of a verdict is made of, besides the mesh; a file of published rows, and a line.
-StudyKeys gaps_keys(), search_keys(), judging_keys(), calibration_record_keys(), uncertainty_keys(),
-    reference_keys();
+/// what the uncertainty of a verdict is made of, besides the mesh; other constants to compare; a file of
+/// published rows, and a line.
+StudyKeys gaps_keys(), search_keys(), judging_keys(), uncertainty_keys(), models_keys(), reference_keys();
 /// Refuses an uncertainty that is stated by hand as a bare number, "1 K".
 void check_bare_uncertainties(const toml::table& root, const StudyKeys& keys, const std::string& file);
 /// Likewise one without a source in words, and a source without its value.

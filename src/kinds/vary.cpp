@@ -1,14 +1,16 @@
 // [[vary]]: what the cases of a study differ in. Every entry has a key of the scene with values, or with a
-// distribution; or a calibration whose constants vary together.
+// distribution; or the key "constants": those that a fit found vary together.
 #include "launchsafe/kinds/sensitivity.hpp"
 #include "study_keys.hpp"
+
+#include <Eigen/LU>
 
 namespace launchsafe::kinds {
 namespace {
 
 using math::Distribution;
 
-constexpr const char *table_name = "vary", *calibration_key = "calibration";
+constexpr const char *table_name = "vary", *constants_key = "constants";
 
 struct VaryText {
   std::string name;
@@ -41,22 +43,17 @@ std::vector<Key<Distribution>> distribution_keys(const KeyDescription& scene_key
 /// The keys of an entry that varies this key of a scene.
 std::vector<Key<VaryText>> vary_keys(const KeyDescription& scene_key) {
   return joined<VaryText>(
-      {{text_key("key", Standing::input,
-                 "What varies: peak_pressure, crack_radius, flaw_size, or a scene key that takes one number.",
-                 "peak_pressure", &VaryText::name) |
+      {{text_key(
+            "key", Standing::input,
+            "What varies: peak_pressure, crack_radius, flaw_size, a scene key that takes one number; or "
+            "constants, those that a fit found of the skin, together, by its covariance (kind sensitivity).",
+            "peak_pressure", &VaryText::name) |
             required(),
         list_key("values", scene_key.dimension, scene_key.limits, Standing::input,
                  "Its values, in a unit of the key; every combination with other keys is a case.",
                  &VaryText::values)},
        keys::keys_of_part("", &VaryText::distribution, distribution_keys(scene_key))});
 }
-
-/// Of the entry that names the record of a calibration, by its path.
-const std::vector<Key<VaryText>> vary_record_keys{
-    text_key("calibration", Standing::input,
-             "Instead of the other keys: the calibration.json whose fitted constants vary together, by the "
-             "covariance of its fit; of kind sensitivity.",
-             "../reports/calibrate_table8/calibration.json", &VaryText::name)};
 
 /// One entry while it is read.
 struct VaryReader {
@@ -198,69 +195,80 @@ void read_entry(VaryReader& reader, const Varied& admitted) {
   reader.study.study.axes.push_back(std::move(axis));
 }
 
-// --- the constants of a calibration, together ---
+// --- the constants of a fit, together ---
 
-/// Whether the study's scene and keys allow constants of a record to vary.
-void check_place_of_record(const VaryReader& reader) {
+/// Throws where the constants of the study's scene cannot vary together.
+void check_constants(const VaryReader& reader) {
   const StudyFile& study = reader.study;
   if (settings_of<SensitivitySettings>(study.study).calibrated)
-    reader.refuse("calibration", "a second calibration", "one calibration among what varies");
-  if (!study.study.calibration_record.empty())
-    reader.refuse("calibration", "a calibration beside that of the study",
-                  "one of both: the constants vary around those of the record that [[vary]] names",
-                  "leave out calibration = \"" + study.study.calibration_record + "\"");
-  const Load& load = study.scene.scene.load;
-  if (!load.curve_time.empty() || load.shape != scene::LoadShape::bell)
-    reader.refuse("calibration",
-                  fmt::format("constants of a bell for a scene whose load is {}",
-                              load.curve_time.empty() ? '"' + scene::word_of(load.shape) + '"'
-                                                      : std::string("a measured curve")),
-                  "a scene with load.shape = \"bell\"");
+    reader.refuse("key", "the constants a second time", "each key once");
+  if (study.scene.constants == nullptr || study.scene.constants->fitted_keys.empty())
+    reader.refuse("key", "constants of a scene that has none that were fitted",
+                  "a scene or study with constants = the file of a calibration");
 }
 
-CalibrationRecord read_covariance(VaryReader& reader, const std::filesystem::path& folder) {
-  const std::string wanted = "the calibration.json of a calibration with load_fitted = true";
-  auto record = read_named_record(reader.study, folder, reader.study_key("calibration"), reader.text.name,
-                                  wanted, study::parse_calibration_record);
-  if (!record.failure.empty())
-    reader.refuse("calibration", "a record without constants: " + record.failure, wanted);
-  if (record.covariance.empty())
-    reader.refuse("calibration", "a record without a covariance: its load was not fitted", wanted);
-  return record;
+/// Places of the fitted constants that act on the skin alone.
+std::vector<std::size_t> skin_constants(const scene::Constants& constants) {
+  std::vector<std::size_t> places;
+  for (std::size_t i = 0; i < constants.fitted_keys.size(); ++i)
+    if (scene::role_of(constants.fitted_keys[i]).acts_on == keys::ActsOn::surface) places.push_back(i);
+  return places;
 }
 
-void read_calibrated(VaryReader& reader, const std::filesystem::path& folder) {
-  reader.places = taken(scene::read_table(reader.table, vary_record_keys, {}, reader.study.file, reader.text),
-                        table_name);
-  const Place place = reader.place_of("calibration");
-  const std::string study_key = reader.study_key("calibration");
-  reader.study.places[study_key] = place;
-  check_place_of_record(reader);
-  const CalibrationRecord record = read_covariance(reader, folder);
-  constexpr std::size_t count = study::fitted_keys.size();
-  auto factor = math::covariance_factor(record.covariance, count);
+/// Covariance of some of the constants while the others, which make the launch, stay as they are: what the
+/// published rows leave open of a skin on a given launch. Of all together they leave far more.
+std::vector<double> conditional_covariance(const scene::Constants& constants,
+                                           const std::vector<std::size_t>& places) {
+  const auto size = static_cast<Eigen::Index>(constants.fitted_keys.size());
+  using Matrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+  const Matrix information = Eigen::Map<const Matrix>(constants.covariance.data(), size, size).inverse();
+  const auto count = static_cast<Eigen::Index>(places.size());
+  Matrix part(count, count);
+  for (Eigen::Index i = 0; i < count; ++i)
+    for (Eigen::Index j = 0; j < count; ++j)
+      part(i, j) = information(static_cast<Eigen::Index>(places[static_cast<std::size_t>(i)]),
+                               static_cast<Eigen::Index>(places[static_cast<std::size_t>(j)]));
+  const Matrix inverse = part.inverse(), conditional = 0.5 * (inverse + inverse.transpose());
+  return {conditional.data(), conditional.data() + conditional.size()};
+}
+
+/// Adds an axis for a fitted constant, whose logarithm has that standard deviation.
+void add_constant(VaryReader& reader, const std::string& name, double deviation) {
+  StudyFile& study = reader.study;
+  const Place place = reader.place_of("key");
+  check_free(study, name, place, "vary.key");
+  const KeyDescription key = varied_key(study, name, "vary.key", place);
+  study.study.axes.push_back({name,
+                              reader.study_key("key"),
+                              key,
+                              {},
+                              Distribution::log_normal(study::number_in(study.scene, name), deviation)});
+}
+
+void read_constants(VaryReader& reader) {
+  const toml::node& node = *reader.table.get("key");
+  const Place place = reader.places["key"] = scene::place_of(node, reader.study.file);
+  reader.study.places[reader.study_key("key")] = place;
+  for (const auto& [key, other] : reader.table)
+    if (key != "key") reader.refuse("key", std::string(key.str()) + " beside constants", "the key alone");
+  check_constants(reader);
+  const scene::Constants& constants = *reader.study.scene.constants;
+  const std::vector<std::size_t> places = skin_constants(constants);
+  const std::vector<double> covariance = conditional_covariance(constants, places);
+  auto factor = math::covariance_factor(covariance, places.size());
   if (!factor)
-    reader.refuse("calibration", "a record whose covariance is not positive definite",
-                  "the record of a calibration whose fit is not singular");
+    reader.refuse("key", "constants whose covariance is not positive definite",
+                  "those of a fit that settled");
   Study& study = reader.study.study;
-  settings_of<SensitivitySettings>(study).calibrated = {study.axes.size(), count, std::move(*factor)};
-  for (std::size_t i = 0; i < count; ++i) {
-    const std::string key_name = study::fitted_keys[i];
-    check_free(reader.study, key_name, place, "vary.calibration");
-    const KeyDescription key = varied_key(reader.study, key_name, "vary.calibration", place);
-    const double median =
-        std::get<double>(scene::find_key(scene::scene_keys(), key_name)->get(record.calibration.scene));
-    const double deviation = std::sqrt(record.covariance[i * count + i]);
-    study.axes.push_back({key_name, study_key, key, {}, Distribution::log_normal(median, deviation)});
-  }
+  settings_of<SensitivitySettings>(study).calibrated = {study.axes.size(), places.size(), std::move(*factor)};
+  for (std::size_t i = 0; i < places.size(); ++i)
+    add_constant(reader, constants.fitted_keys[places[i]], std::sqrt(covariance[i * places.size() + i]));
 }
 
 }  // namespace
 
 StudyTable vary_table() {
   StudyTable table = study_table_of(table_name, vary_keys({}));
-  const StudyTable more = study_table_of(table_name, vary_record_keys);
-  table.keys.insert(table.keys.end(), more.keys.begin(), more.keys.end());
   for (scene::DocumentedKey& key : table.keys) key.default_text.clear();  // an entry has what its form needs
   return table;
 }
@@ -269,8 +277,8 @@ void read_vary(const StudySource& source, const Varied& admitted, StudyFile& stu
   const auto tables = study::tables_of(source.root, table_name, study, admitted.needed);
   for (std::size_t index = 0; const toml::table* table : tables) {
     VaryReader reader{study, *table, index++};
-    if (admitted.distributions && table->contains(calibration_key))
-      read_calibrated(reader, source.folder);
+    if (admitted.distributions && (*table)["key"].value_or(std::string{}) == constants_key)
+      read_constants(reader);
     else
       read_entry(reader, admitted);
   }

@@ -123,6 +123,7 @@ std::vector<Key<KineticsParameters>> kinetics_keys() {
                     Role{ActsOn::chemistry, Part::constant, Hotter::below}),
       number_key("ignition_temperature", Dimension::temperature, above_to(0, 2e3), Standing::calibrated,
                  "Temperature T1 that triggers ignition.", &KineticsParameters::ignition_temperature) |
+          usually("that of the constants") |
           plausibly(
               between(480, 560),
               "Composition B explodes within seconds at 551 K, and published launches ask for 515 to 528 K",

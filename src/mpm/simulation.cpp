@@ -98,6 +98,8 @@ void Simulation::add_to_energy(const StepTotals& totals, const StepInput& begin)
   energy_.plastic += sum(p.plastic);
   energy_.viscous += sum(p.viscous);
   energy_.crack += sum(p.crack);
+  energy_.charge_work += sum(p.charge_work);
+  energy_.charge_friction += sum(p.charge_friction);
   energy_.damping += sum(n.lost_before) + sum(n.damping) + sum(p.pic_loss);
   balance_.damping += sum(n.lost_before);
   for (EnergyTotals* energy : {&energy_, &balance_}) {

@@ -29,16 +29,17 @@ auto last_of(std::vector<double> run::CombustionHistory::*history) {
 }
 
 using run::MechanicsResult;
-const Quantities<NamedRun> run_quantities{
-    {quantity::case_name, &NamedRun::name},
-    {headed("status", quantity::status),
-     [](const NamedRun& run) { return run.failure.empty() ? "completed" : run.failure; }},
-    {quantity::energy_drift, &NamedRun::mechanics, run::largest_energy_drift},
-    {quantity::steps, &NamedRun::mechanics, &MechanicsResult::steps},
-    {quantity::particles, &NamedRun::mechanics, &MechanicsResult::particles},
-    {quantity::limiters, [](const NamedRun& run) { return limiters_text(run.mechanics->limiters); }},
-    {for_programs(Column{"stored_case", "stored case", text(), "File in the folder that holds the run."}),
-     &NamedRun::stored}};
+const Quantities<NamedRun> run_quantities = keys::joined<NamedRun>(
+    {{{quantity::case_name, &NamedRun::name},
+      {headed("status", quantity::status),
+       [](const NamedRun& run) { return run.failure.empty() ? "completed" : run.failure; }}},
+     of_part<NamedRun>(launch_effects(), &NamedRun::mechanics),
+     {{quantity::energy_drift, &NamedRun::mechanics, run::largest_energy_drift},
+      {quantity::steps, &NamedRun::mechanics, &MechanicsResult::steps},
+      {quantity::particles, &NamedRun::mechanics, &MechanicsResult::particles},
+      {quantity::limiters, [](const NamedRun& run) { return limiters_text(run.mechanics->limiters); }},
+      {for_programs(Column{"stored_case", "stored case", text(), "File in the folder that holds the run."}),
+       &NamedRun::stored}}});
 
 /// A gap that burnt.
 using OneGap = const run::GapResult*;
@@ -65,7 +66,21 @@ const Quantities<OneGap> combustion_quantities =
 
 }  // namespace
 
-Table run_table(const std::vector<NamedRun>& runs) { return table_of("Runs", run_quantities, runs); }
+const Quantities<MechanicsResult>& launch_effects() {
+  static const Quantities<MechanicsResult> effects{
+      {"largest_plastic_strain", "plastic strain of the steel", keys::significant(3, keys::percent),
+       "Largest plastic strain of the steel at the end.", &MechanicsResult::largest_plastic_strain},
+      {"yielded_wall", "yielded wall", keys::significant(3, keys::millimetre),
+       "Length of the steel beside the charge whose plastic strain exceeds 0.2 %.",
+       &MechanicsResult::yielded_wall},
+      {"friction_over_work", "friction heat over work", keys::significant(3),
+       "Friction heat of the charge over the net work done on it.", &MechanicsResult::friction_over_work}};
+  return effects;
+}
+
+Table run_table(const std::vector<NamedRun>& runs) {
+  return table_of("Runs", run_quantities, runs, noted("launch_effects"));
+}
 
 Table combustion_table(const run::CaseResult& result) {
   std::vector<OneGap> burnt;

@@ -1,8 +1,8 @@
 #include "launchsafe/report/report.hpp"
 
 #include "launchsafe/report/study_text.hpp"
-#include "launchsafe/study/calibration_record.hpp"
 #include "launchsafe/study/case_answer.hpp"
+#include "launchsafe/study/constants_of_study.hpp"
 
 namespace launchsafe::report {
 namespace {
@@ -73,8 +73,6 @@ nlohmann::ordered_json assumed_json(const study::Study& study) {
   if (!std::isfinite(study.input_uncertainty)) assumed["input_uncertainty"] = true;
   if (study.accuracy.empty() && !std::isfinite(study.numerical_uncertainty))
     assumed["numerical_uncertainty"] = true;
-  if (!study.model_form && !std::isfinite(study.model_form_uncertainty))
-    assumed["model_form_uncertainty"] = true;
   return assumed;
 }
 
@@ -148,6 +146,8 @@ std::string study_json(const study::StudyFile& study, const Report& report,
         {{"key", each.key}, {"K", each.value}, {"assumed_K", each.assumed}, {"because", each.because}});
   if (study.study.kind.gives_verdicts) {
     head["assumed"] = assumed_json(study.study);
+    head["models"] = nlohmann::ordered_json::array();
+    for (const auto& model : study.study.models) head["models"].push_back(study::name_of_model(*model));
     add_acceptances(study::acceptances_of(study), head);
   }
   for (const Picture* picture : items_of<Picture>(report))

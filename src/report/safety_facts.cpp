@@ -220,9 +220,8 @@ Row told_case(const CaseEvidence& judged) {
 }
 
 /// A verdict row as its table shows it, rounded to the safe side. What a run was like until it was cut off is
-/// no margin, nor is anything after ignition, when T max is that of the burning skin. Under which other
-/// models it may ignite is said where `with_models`; none makes UNSAFE less so.
-Row told_verdict(const CaseEvidence& judged, const Row& verdict, bool with_models) {
+/// no margin, nor is anything after ignition, when T max is that of the burning skin.
+Row told_verdict(const CaseEvidence& judged, const Row& verdict) {
   Row row = verdict;
   const bool ignited = !text_of(row, "ignition_cause").empty();
   const double margin = ignited ? study::not_a_number : number_of(row, "margin_K"),
@@ -239,9 +238,8 @@ Row told_verdict(const CaseEvidence& judged, const Row& verdict, bool with_model
   if (text_of(*judged.critical, "critical_gap_kind") == "value")
     row["distance_cm"] = told(
         rounded_down(number_of(*judged.critical, "critical_gap_lower_cm") - number_of(row, "gap_cm"), 3));
-  // What else the reason says, but for what page one says of all rows.
-  if (!with_models || text_of(row, "verdict") == "UNSAFE") row.erase("model_form");
-  for (const char* clause : {"limited", "model_form"})
+  // The rest of the reason.
+  for (const char* clause : {"limited", "failed_models"})
     if (std::string text = text_of(row, clause); !text.empty()) row["beside"].push_back(std::move(text));
   // These tell what is extrapolated themselves.
   if (const std::string reason = text_of(row, "reason_code");
@@ -300,11 +298,8 @@ void add_launch(const SafetyEvidence& evidence, const std::vector<CaseEvidence>&
     for (const Row* row : own.verdicts) facts["verdicts"].push_back(*row);
     if (evidence.stored) all.facts["pictures"] = picture_facts(*own.study, facts, *evidence.stored, all);
   }
-  std::set<std::string> models;  // page one has a line of one that is of all rows but UNSAFE ones
-  for (const Row* row : selected({"", "", "main.verdicts except verdict UNSAFE"}, all.facts))
-    models.insert(text_of(*row, "model_form"));
   for (const CaseEvidence& each : cases)
-    for (const Row* row : each.verdicts) verdicts.push_back(told_verdict(each, *row, models.size() > 1));
+    for (const Row* row : each.verdicts) verdicts.push_back(told_verdict(each, *row));
   all.facts["own"] = facts;
   all.facts[verdicts.size() <= most_rows_on_page_one ? "few" : "many"] = {
       {"verdicts", verdicts}, {"cases", all.facts["answer"]["cases"]}};
@@ -340,10 +335,6 @@ PageFacts facts_of(const SafetyEvidence& evidence) {
   if (const StudyEvidence* accuracy = evidence.find(tells::accuracy))
     facts["setting"] = setting_of(main, *accuracy);
   const auto rows = [&](const char* of) { return selected({"", "", of}, facts); };
-  std::set<std::string> models;  // under which ignition is not excluded
-  for (const Row* row : rows("main.verdicts except verdict UNSAFE with model_form"))
-    models.insert(text_of(*row, "model_form"));
-  facts["other_models"] = models;
   double worst = 0;
   for (const Row* row : rows("main.comparison except used_for fitted"))
     worst = std::max(worst, std::abs(number_of(*row, "temperature_max_computed_minus_published_K")));

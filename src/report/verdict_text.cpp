@@ -1,8 +1,10 @@
 #include "launchsafe/report/quantities.hpp"
 #include "launchsafe/report/study_text.hpp"
+#include "launchsafe/scene/constants.hpp"
 #include "launchsafe/scene/plan.hpp"
-#include "launchsafe/study/calibration_record.hpp"
 #include "launchsafe/study/case_answer.hpp"
+#include "launchsafe/study/constants_of_study.hpp"
+#include "launchsafe/study/study_cases.hpp"
 
 namespace launchsafe::report {
 namespace {
@@ -49,12 +51,6 @@ struct ShareRow {
   const study::GapShare* share;
 };
 
-std::string gap_or_bound_text(study::GapOrBound gap) {
-  if (std::isnan(gap)) return "not known";
-  if (gap == study::no_ignition) return "no ignition";
-  return gap > 0.0 ? in_words(gap, keys::significant(4, centimetre)) : "ignites without a gap";
-}
-
 const Quantities<ShareRow> share_quantities{
     {quantity::case_name, [](const ShareRow& row) { return row.of->label; }},
     {"cause", "cause", text(), "What is uncertain.",
@@ -62,9 +58,9 @@ const Quantities<ShareRow> share_quantities{
     {"class", "class", text(), "Whether it scatters at random or is not known better.",
      [](const ShareRow& row) { return study::traits_of(row.share->kind).of_class; }},
     {"raised", "critical gap towards ignition", text(), "Critical gap with the cause at its worse end.",
-     [](const ShareRow& row) { return gap_or_bound_text(row.share->raised); }},
+     [](const ShareRow& row) { return gap_text(row.share->raised); }},
     {"lowered", "at the other end", text(), "Critical gap with the cause at its better end.",
-     [](const ShareRow& row) { return gap_or_bound_text(row.share->lowered); }},
+     [](const ShareRow& row) { return gap_text(row.share->lowered); }},
     {"lowers", "lowers the bound by", keys::significant(2, centimetre),
      "By how much the cause moves the critical gap towards ignition.",
      [](const ShareRow& row) { return study::move_towards_ignition(row.of->gap->lower, *row.share); }}};
@@ -93,7 +89,8 @@ Quantities<study::GapVerdict> verdict_quantities(const study::Study& study) {
        &GapVerdict::uncertainty, &Uncertainty::fit},
       {share_of_uncertainty("inputs", "of inputs", "Of it: how well load, gap and others are known."),
        &GapVerdict::uncertainty, &Uncertainty::inputs},
-      {share_of_uncertainty("model_form", "of model form", "Of it: what other models would say."),
+      {share_of_uncertainty("model_form", "of model form",
+                            "Share by which launches under other constants move towards ignition."),
        &GapVerdict::uncertainty, &Uncertainty::model_form},
       {verdict, &GapVerdict::judgement, &Judgement::verdict},
       {reason, study::reason_text},
@@ -106,7 +103,8 @@ Quantities<study::GapVerdict> verdict_quantities(const study::Study& study) {
       evidence_quantity("accepted", of_input<study::accepted_text>,
                         "What somebody accepts of that, and why."),
       evidence_quantity("limited", study::limiters_text, "Limiters that acted."),
-      evidence_quantity("model_form", study::models_text, "Models that could change the verdict."),
+      evidence_quantity("failed_models", study::failed_models_text,
+                        "Launches under other constants that failed."),
       evidence_quantity("extrapolated", study::extrapolated_text,
                         "What lies outside the domain of the calibration."),
       {for_people(Column{"ignition", "ignition", text(), "Cause, instant and station of ignition."}),
@@ -163,6 +161,7 @@ std::vector<std::string> mesh_notes(const study::StudyFile& study) {
                                {"K", each.value},
                                {"assumed_K", each.assumed},
                                {"because", each.because}});
+  facts["no_models"] = study.study.kind.gives_verdicts && study.study.models.empty();
   add_off_grid(study, facts);
   // What nobody accepts, as a file would say it; the first where many cases have values of their own.
   constexpr std::size_t most_entries = 12;
@@ -186,6 +185,12 @@ std::string station_note(const study::StudyFile& study) {
       .front();
 }
 
+std::string gap_text(study::GapOrBound gap) {
+  if (std::isnan(gap)) return "not known";
+  if (gap == study::no_ignition) return "no ignition";
+  return gap > 0.0 ? in_words(gap, keys::significant(4, centimetre)) : "ignites without a gap";
+}
+
 double value_of(const study::CriticalGap& gap) {
   return gap.kind == study::CriticalGapKind::value ? gap.value : study::not_a_number;
 }
@@ -199,7 +204,7 @@ std::string reads_as(const study::CriticalGap& gap) {
   if (std::isnan(gap.indicative)) return "indeterminate";
   return fmt::format("indeterminate (indicative: {})", gap.indicative == study::no_ignition
                                                            ? "none up to the end of the search"
-                                                           : gap_or_bound_text(gap.indicative));
+                                                           : gap_text(gap.indicative));
 }
 
 std::string friction_remark(const study::StudyFile& study) {
@@ -232,11 +237,12 @@ Table gap_share_table(const std::vector<NamedGap>& cases) {
                   noted("gap_shares", {{"coverage", study::coverage_factor}}));
 }
 
-std::string used_for(const study::Reference& published) {
-  using enum study::Use;
-  // That a gap ignites is what the ignition temperature is fitted to.
-  if (published.calibrated || published.ignited()) return to_string(fitted);
-  return to_string(published.selection ? chosen_by : held_out);
+study::Use use_of(const std::shared_ptr<const scene::Constants>& constants, double gap, double published) {
+  const auto is_it = [&](const scene::FittedNumber& row) {
+    return row.is_fitted && std::abs(row.gap - gap) <= 1e-9 && study::same_number(row.published, published);
+  };
+  const bool is_fitted = constants != nullptr && std::ranges::any_of(constants->rows, is_it);
+  return is_fitted ? study::Use::fitted : study::Use::check;
 }
 
 }  // namespace launchsafe::report

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <set>
+
 namespace launchsafe::run {
 namespace {
 
@@ -25,9 +27,9 @@ const math::AlignedArray* field_of(const mpm::AnyBody& any, std::string_view nam
 EnergyBalance energy_of(const mpm::Simulation& simulation) {
   const double whole = whole_circle;
   const mpm::EnergyTotals& totals = simulation.energy();
-  EnergyBalance balance{totals.kinetic, totals.internal, totals.external, totals.body_force,
-                        totals.damping, totals.contact,  totals.plastic,  totals.viscous,
-                        totals.crack,   totals.hourglass};
+  EnergyBalance balance{totals.kinetic, totals.internal,  totals.external,    totals.body_force,
+                        totals.damping, totals.contact,   totals.plastic,     totals.viscous,
+                        totals.crack,   totals.hourglass, totals.charge_work, totals.charge_friction};
   for (const auto& term : energy_terms) balance.*term.member *= whole;
   return balance;
 }
@@ -65,6 +67,26 @@ std::vector<InterfaceResult> interfaces_of(const mpm::Simulation& simulation) {
     results.push_back(std::move(result));
   }
   return results;
+}
+
+double yielded_wall(const mpm::Simulation& simulation) {
+  const scene::Extent charge = scene::charge_extent(simulation.scene());
+  const double touching = scene::length_tolerance(simulation.scene());
+  std::set<std::pair<double, double>> yielded;  // columns of particles: where they begin and end
+  for (const mpm::Body<materials::Steel>& steel : simulation.bodies_of<materials::Steel>()) {
+    const mpm::Lattice& l = steel.particles.lattice;
+    if (l.x_begin() >= charge.x_end - touching || l.x_end() <= charge.x_begin + touching) continue;
+    for (int i = 0; i < l.columns(); ++i)
+      for (int j = 0; j < l.rows(); ++j)
+        if (steel[materials::Steel::plastic_strain][l.slot(i, j)] > yield_of_wall)
+          yielded.emplace(l.x_of(i) - 0.5 * l.length_x(i), l.x_of(i) + 0.5 * l.length_x(i));
+  }
+  double length = 0.0, counted = -std::numeric_limits<double>::infinity();
+  for (const auto& [begin, end] : yielded) {
+    length += std::max(0.0, end - std::max(begin, counted));
+    counted = std::max(counted, end);
+  }
+  return length;
 }
 
 LimiterCounts count_limited(const mpm::Simulation& simulation) {

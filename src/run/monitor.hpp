@@ -16,6 +16,9 @@ MonitorSample monitor_sample(const mpm::Simulation& simulation, double time_step
 /// What became of the faces that can slide.
 std::vector<InterfaceResult> interfaces_of(const mpm::Simulation& simulation);
 
+/// Axial length at rest (m) of the wall where some particle's plastic strain exceeds `yield_of_wall`.
+double yielded_wall(const mpm::Simulation& simulation);
+
 LimiterCounts count_limited(const mpm::Simulation& simulation);
 
 struct Stop {

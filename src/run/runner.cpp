@@ -102,6 +102,7 @@ MechanicsResult Runner::run() {
   result_.end_time = simulation_.time();
   result_.limiters = count_limited(simulation_);
   result_.interfaces = interfaces_of(simulation_);
+  result_.yielded_wall = yielded_wall(simulation_);
   result_.wall_time = seconds_since(start_);
   result_.processor_time = thread_processor_time() - processor_start;
   result_.trace = recorder_.take();

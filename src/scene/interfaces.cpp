@@ -53,7 +53,7 @@ const std::vector<Key<Interface>>& interface_keys() {
   static const std::vector<Key<Interface>> keys = {
       word_key("condition", Standing::input,
                "How a body and the charge hold each other: bonded, or sliding with friction, "
-               "free to part. Bodies without a table are bonded.",
+               "free to part. Bodies without a table are held as the constants say.",
                {{"bonded", Condition::bonded}, {"sliding", Condition::sliding}}, &Interface::condition) |
           required() |
           always_plausible(

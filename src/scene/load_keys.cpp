@@ -233,11 +233,11 @@ std::vector<Key<Load>> load_keys() {
           overriding({"muzzle_exit"}) |
           plausibly(between(0.5, 15), "mortars have a tube of a metre, guns one of 2 to 11 m"),
       number_key("exit_decay", Dimension::time, above_to(0, 1), Standing::assumed,
-                 "Time constant with which the pressure falls after the muzzle exit: by default that "
-                 "in which a shell of 155 mm at 800 m/s flies 2.6 calibres.",
+                 "Time constant with which the pressure falls after the muzzle exit: by default about "
+                 "that in which rarefactions from the rim of a 155 mm bore reach its axis.",
                  &Load::exit_decay) |
           written_where(has_exit) |
-          plausibly(between(0.1e-3, 3e-3), "the gas outruns the shot within some calibres"),
+          plausibly(between(0.05e-3, 3e-3), "the gas outruns the shot within some calibres"),
       // Never written back: it makes no other launch, and a case with another load is none that was typed.
       optional_number_key<Load>("expected_velocity", Dimension::speed, above_to(0, 5e3),
                                 "Velocity at the muzzle, typed from a range table: a load that drives the "

@@ -143,8 +143,10 @@ void check_kinetics_of(const NamedMaterial& material, const SceneFile& file) {
       key.set(stated, given->value);
   }
   for (const Key<Charge>& key : keys) {
-    if (!key.name.starts_with("kinetics.") || key.get(stated) == key.get(own)) continue;
-    const Place& of_material = find_in(material.values, key.name)->place;
+    const Given* of_its_own = find_in(material.values, key.name);
+    if (!key.name.starts_with("kinetics.") || of_its_own == nullptr || key.get(stated) == key.get(own))
+      continue;
+    const Place& of_material = of_its_own->place;
     throw error_at(
         find_in(file.given, key.name)->place, key.name,
         fmt::format("{} = {} beside {} of the material \"{}\"", key.name, format_value(key, key.get(stated)),

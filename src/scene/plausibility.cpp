@@ -194,7 +194,6 @@ std::vector<KeyDescription> acceptable_keys(const Scene& scene) {
     add(quantity.description, quantity.description.name);
   for (const char* name : {foreign_shell, foreign_material, foreign_interfaces})
     add({.kind = KeyKind::text}, name);
-  add({.kind = KeyKind::number, .dimension = Dimension::pressure}, pressure_of_models);
   return keys;
 }
 

@@ -1,6 +1,7 @@
 
 #include "launchsafe/scene/read_scene.hpp"
 
+#include "launchsafe/scene/constants.hpp"
 #include "launchsafe/scene/load.hpp"
 #include "launchsafe/scene/plan.hpp"
 #include "scene_file.hpp"
@@ -8,7 +9,8 @@
 namespace launchsafe::scene {
 namespace {
 
-const std::vector<std::string> read_apart{"body", "observation_point", "accept", "interface", "material"};
+const std::vector<std::string> read_apart{"body",      "observation_point", "accept",
+                                          "interface", "material",          "constants"};
 
 /// Reads [[name]] tables into `owners`; the places become "name.<name of the owner>.<key>".
 template <class Owner>
@@ -44,7 +46,11 @@ void rebuild(SceneFile& file, bool has_curve, bool is_valid = false) {
   fresh.interfaces = std::move(file.scene.interfaces);
   use_materials(file, fresh);
   for (const Key<Scene>& key : scene_keys())
-    if (const Given* given = find_in(file.given, key.name)) key.set(fresh, given->value);
+    if (const Given* given = find_in(file.given, key.name))
+      key.set(fresh, given->value);
+    else if (const Value* constant = constant_of(file, key.name))
+      key.set(fresh, *constant);
+  hold_by_constants(file, fresh);
   std::swap(file.scene, fresh);
   if (has_curve && !file.scene.load.curve_file.empty()) {
     file.scene.load.curve_time = std::move(fresh.load.curve_time);
@@ -61,10 +67,12 @@ void rebuild(SceneFile& file, bool has_curve, bool is_valid = false) {
   if (!is_valid) validate(file);
 }
 
-/// The interface of a body; a bonded one where the scene says nothing of it.
+/// The interface of a body, to be changed; a bonded one where the scene says nothing of it.
 Interface& interface_of(Scene& scene, const std::string& body) {
   const auto faces = std::ranges::find(scene.interfaces, body, &Interface::body);
-  return faces != scene.interfaces.end() ? *faces : scene.interfaces.emplace_back(Interface{.body = body});
+  if (faces == scene.interfaces.end()) return scene.interfaces.emplace_back(Interface{.body = body});
+  faces->from_constants = false;
+  return *faces;
 }
 const Interface& interface_of(const Scene& scene, const std::string& body) {
   static const Interface bonded{};
@@ -187,6 +195,22 @@ Place place_of_key(const SceneFile& file, const std::string& key) {
   return place != nullptr ? *place : Place{file.file};
 }
 
+namespace {
+
+/// The constants that a scene file names; the default ones where it names none.
+std::shared_ptr<const Constants> read_constants_of(const toml::table& table, const SceneFile& file) {
+  constexpr const char* key = "constants";
+  const toml::node* node = table.get(key);
+  if (node == nullptr) return shipped_constants().front();
+  const Place place = place_of(*node, file.file);
+  const auto name = node->value<std::string>();
+  if (!node->is_string())
+    throw error_at(place, key, found_text(*node), "the name or path of a constants file, in quotation marks");
+  return find_constants(*name, file.folder, place, key);
+}
+
+}  // namespace
+
 Expected<SceneFile> parse_scene(std::string_view text, const std::filesystem::path& path) {
   return caught([&] {
     const toml::table table = parse_toml(text, path.string()).or_throw();
@@ -204,6 +228,7 @@ Expected<SceneFile> parse_scene(std::string_view text, const std::filesystem::pa
     read_named(table, "body", body_keys(), file.file, scene.bodies, file.places);
     read_named(table, "observation_point", observation_point_keys(), file.file,
                scene.output.observation_points, file.places);
+    file.constants = read_constants_of(table, file);
     file.materials = read_materials(table, file.file);
     for (const Body& body : scene.bodies) file.body_materials.push_back(body.material);
     read_interfaces(table, file.file, scene, file.places);
@@ -247,6 +272,14 @@ Expected<SceneFile> with_keys(const SceneFile& file, const std::vector<KeyChange
   });
 }
 
+Expected<SceneFile> with_constants(const SceneFile& file, std::shared_ptr<const Constants> constants) {
+  return caught([&, changed = file]() mutable {
+    changed.constants = std::move(constants);
+    rebuild(changed, true);
+    return std::move(changed);
+  });
+}
+
 std::vector<ListedKey> list_keys(const SceneFile& file) {
   std::vector<ListedKey> listed;
   for (const Key<Scene>& key : scene_keys()) {
@@ -259,7 +292,8 @@ std::vector<ListedKey> list_keys(const SceneFile& file) {
 
 std::string to_toml(const Scene& scene) {
   std::string text =
-      lines_of("", scene_keys(), scene) + own_materials(scene) + interfaces_as_toml(scene.interfaces) +
+      fmt::format("constants = '{}'\n", no_constants) + lines_of("", scene_keys(), scene) +
+      own_materials(scene) + interfaces_as_toml(scene.interfaces) +
       inline_tables("body", body_keys(), scene.bodies) +
       inline_tables("observation_point", observation_point_keys(), scene.output.observation_points);
   if (!scene.accepted.empty()) text += inline_tables("accept", acceptance_keys(), scene.accepted);

@@ -49,6 +49,16 @@ struct BuiltInText {
 };
 const std::vector<BuiltInText>& built_in_materials();
 
+/// A file of studies/constants, the default first.
+const std::vector<BuiltInText>& built_in_constants();
+
+/// The value that the constants of a scene file give a key of the scene; null where they give none, or where
+/// the file has its own: a measured curve, a steel, a charge with its ignition temperature.
+const Value* constant_of(const SceneFile& file, const std::string& key);
+/// Holds bodies at the charge, of which the file says nothing, as its constants do. The paper's method has
+/// one velocity a place, and its faces stay bonded.
+void hold_by_constants(const SceneFile& file, Scene& scene);
+
 /// The keys of [load], under their names in that table.
 std::vector<Key<Load>> load_keys();
 

@@ -1,4 +1,5 @@
 
+#include "launchsafe/scene/constants.hpp"
 #include "scene_file.hpp"
 
 namespace launchsafe::scene {
@@ -278,6 +279,13 @@ const std::vector<Key<ObservationPoint>>& observation_point_keys() {
 
 std::vector<DocumentedKey> describe_keys() {
   std::vector<DocumentedKey> documented;
+  KeyDescription constants =
+      keys::description("constants", KeyKind::text, Standing::input,
+                        "Constants that were fitted, of every key that the scene does not state: a shipped "
+                        "name, the path of a constants file, or none.");
+  constants.example = default_constants;
+  always_plausible("the launch that they were fitted on is judged")(constants);
+  documented.push_back({std::move(constants), default_constants});
   document(documented, scene_keys(), "");
   document(documented, body_keys(), "body.");
   document(documented, interface_keys(), "interface.NAME.");

@@ -94,6 +94,8 @@ void lay_out_mechanics(Archive& archive, Value& mechanics) {
                   [&] { lay_out_members(archive, mechanics.limiters, run::limiters); });
     list(archive, "interfaces", "A face of the charge on which a body can slide", mechanics.interfaces,
          [&](auto& faces) { lay_out_members(archive, faces, run::stored_interface); });
+    archive.value("yielded_wall", mechanics.yielded_wall,
+                  {"m", "axial length of the wall whose plastic strain exceeds 0.2 %"});
     archive.group("monitor", "History of the energy balance and of stability",
                   [&] { lay_out_monitor(archive, mechanics.monitor); });
     archive.group("trace", "History of the charge bottom", [&] { lay_out_trace(archive, mechanics.trace); });

@@ -1,6 +1,6 @@
 #include "launchsafe/study/case_answer.hpp"
 
-#include "launchsafe/study/calibration_record.hpp"
+#include "launchsafe/study/constants_of_study.hpp"
 #include "launchsafe/version.hpp"
 
 #include <tbb/parallel_for.h>
@@ -15,13 +15,11 @@ std::string digest_of_analysis(const Study& study) {
       fmt::format("# answer of launchsafe {} {}, model version {}\n{} {} {} {} {} {}\n", version::number,
                   version::commit, run::model_version, fmt::join(study.gaps, ","), study.tolerance,
                   study.largest_gap, study.fit_uncertainty, study.input_uncertainty, study.early_time);
-  for (const Reference& row : study.references)
-    text += fmt::format("{} {} {} {} {} {} {}\n", row.gap, row.maximum_temperature, row.early_temperature,
-                        row.spread, row.early_spread, row.ignition_time, row.calibrated);
-  CalibrationRecord record;
-  record.calibration = study.calibration;
-  text += fmt::format("{}\n{}\n", to_json_text(record), study.model_form_uncertainty);
-  if (study.model_form) text += to_json_text(*study.model_form);
+  const CalibrationEvidence& evidence = study.calibration.evidence;
+  text += fmt::format("{} {} {} {}\n{}\n", evidence.friction_rise, evidence.air_rise, evidence.largest_gap,
+                      evidence.fit_uncertainty, scene::to_toml(study.calibration.scene));
+  for (const auto& model : study.models)
+    text += fmt::format("{}\n{}\n", name_of_model(*model), scene::to_toml(*model));
   for (const scene::Implausible& each : study.implausible)
     text += fmt::format("{} {} {}\n", each.key, each.value, each.because);
   return store::sha256(text);
@@ -45,14 +43,16 @@ std::optional<CaseAnswer> stored_answer(const Study& study, const StudyCase& inp
 
 /// The key of the stored answer of a case: all that determines it and its runs. `analysis`: digest of what of
 /// the study does.
-std::string answer_key(const std::string& analysis, const StudyCase& input) {
+std::string answer_key(const std::string& analysis, const Study& study, const StudyCase& input) {
   scene::Scene scene = input.scene.scene;
   scene::clear_remarks(scene);
   scene.surface.gaps = {};
-  return store::CaseIdentity(analysis + (input.own_conditions ? "own" : "other") +
-                             fmt::format(" {} {}\n", input.numerical_uncertainty, input.rise_of_uncertainty) +
-                             scene::to_toml(scene))
-      .hash();
+  std::string text = analysis + (input.own_conditions ? "own" : "other") +
+                     fmt::format(" {} {}\n", input.numerical_uncertainty, input.rise_of_uncertainty) +
+                     scene::to_toml(scene);
+  // Equal scenes differ under other constants where one states what the other takes from its own.
+  for (const auto& model : study.models) text += scene::to_toml(scene_of_model(input, model));
+  return store::CaseIdentity(text).hash();
 }
 
 /// Takes from the store the answers that are there, and draws the others from runs.
@@ -81,8 +81,8 @@ struct AnswerRunner {
       if (cases[i].shard != options.shard.index || stop_requested(options)) return;
       for (const std::size_t each : cases[i].members) {
         const StudyCase input = study.cases[each];
-        answers[each] = stored_answer(study.study, input, answer_key(analysis, input), cases[i].runs.size(),
-                                      *options.store);
+        answers[each] = stored_answer(study.study, input, answer_key(analysis, study.study, input),
+                                      cases[i].runs.size(), *options.store);
       }
     });
   }
@@ -134,7 +134,7 @@ struct AnswerRunner {
     if (judged && options.store != nullptr && std::ranges::none_of(runs, was_cut_off)) {
       answer.runs = hashes;
       options.store->write([&](store::Database& database) {
-        return save_answer(database, answer_key(analysis, input), answer);
+        return save_answer(database, answer_key(analysis, study.study, input), answer);
       });
       answer.runs.clear();
     }
@@ -178,7 +178,7 @@ CaseAnswer failed_answer(const Study& study, const StudyCase& input, RunOutcome 
 CaseAnswer judged(CaseAnswer answer, const Study& study, const StudyCase& input) {
   const auto evidence = std::make_shared<const CaseEvidence>(
       CaseEvidence{answer.failure, answer.run.limiters, answer.validity_warnings, answer.friction_rise,
-                   statements_of(study, input)});
+                   statements_of(study, input), failed_models(answer.models)});
   // What its input says now, rather than when it was stored.
   if (GapReason reason = why_no_critical_gap(*evidence);
       reason.code != GapReasonCode::none && answer.critical.kind == CriticalGapKind::indeterminate)
@@ -192,19 +192,36 @@ bool was_cut_off(const FinishedRun& run) {
 }
 
 CaseAnswer answer_from(const Study& study, const StudyCase& input, const std::vector<FinishedRun>& runs) {
-  if (const FinishedRun* run = run_without_result(runs))
-    return failed_answer(study, input, run->outcome, run->failure);
   const FinishedRun& own = runs.front();
-  if (was_cut_off(own)) {
+  if (run_without_result(runs) == nullptr && was_cut_off(own)) {
     CaseAnswer answer = failed_answer(study, input, own.outcome, own.failure);
     answer.run.status = own.result.mechanics.status;
     return answer;
   }
-  std::optional<run::MechanicsResult> raised;
-  if (runs.size() > 1 && own.failure.empty()) raised = runs[1].result.mechanics;
-  CaseAnswer answer = answer_of(study, input, own.result.mechanics, raised);
-  answer.outcome = own.outcome;
-  return answer;
+  CaseOutcome outcome = outcome_from(study, input, runs);
+  apply_confirmations(study, outcome);
+  conclude(study, outcome);
+  return answer_of(outcome);
+}
+
+CaseOutcome outcome_from(const Study& study, const StudyCase& input, const std::vector<FinishedRun>& runs) {
+  if (const FinishedRun* run = run_without_result(runs))
+    return without_result(study, input, run->outcome, run->failure);
+  CaseOutcome outcome;
+  outcome.input = input;
+  outcome.outcome = runs.front().outcome;
+  outcome.failure = runs.front().failure;
+  outcome.result.mechanics = runs.front().result.mechanics;
+  if (outcome.completed()) {
+    if (runs.size() > 1 && runs[1].model.empty()) {
+      outcome.raised = runs[1].result.mechanics;
+      outcome.raised->monitor.clear();
+      outcome.raised->snapshots.clear();
+    }
+    outcome.models = gaps_of_models(study, input, runs);
+  }
+  evaluate(study, outcome);
+  return outcome;
 }
 
 std::vector<CaseAnswer> answer_cases(const StudyFile& study, const StudyOptions& options, Timing& timing,

@@ -43,8 +43,15 @@ bool tell_runs_apart(const StudyFile& study, const std::vector<std::size_t>& axe
          keeps_values(study, last, axes);
 }
 
+/// A launch of a case under other constants.
+CaseRun model_run(const StudyCase& input, const std::shared_ptr<const scene::Constants>& model) {
+  return mechanics_run(scene_of_model(input, model),
+                       fmt::format("{}, constants {}", input.label, name_of_model(*model)));
+}
+
 std::string key_by_runs(const StudyFile& study, const StudyCase& input) {
   std::string key = mechanics_run(input.scene.scene, {}).hash;
+  for (const auto& model : study.study.models) key += model_run(input, model).hash;
   // A case that burns shares its launch alone with no other.
   for (const double gap : launched_gaps(study, input)) key += skin_run(input.scene.scene, gap, {}).hash;
   return key;
@@ -88,8 +95,9 @@ scene::Scene with_raised_load(const scene::Scene& scene) {
 /// The runs of the first of the cases that share them.
 void plan_runs(const StudyFile& study, CaseRuns& cases) {
   const std::size_t first = cases.members.front();
-  const auto add = [&](auto make) {
-    cases.runs.push_back({[of = &study, first, make] { return make(of->cases[first]); }});
+  const auto add = [&](auto make, std::string model = {}) {
+    cases.runs.push_back(
+        {[of = &study, first, make] { return make(of->cases[first]); }, 1.0, std::move(model)});
   };
   // Where every case has runs of the same kinds none is made to know them.
   const StudyCase input = study.study.kind.goes_through_ignition ? study.cases[first] : StudyCase{};
@@ -104,6 +112,8 @@ void plan_runs(const StudyFile& study, CaseRuns& cases) {
       return mechanics_run(with_raised_load(own.scene.scene),
                            fmt::format("{}, load +{:.3g} %", own.label, 100.0 * assumed_load_spread));
     });
+  for (const auto& model : study.study.models)
+    add([model](const StudyCase& own) { return model_run(own, model); }, name_of_model(*model));
 }
 
 void predict_costs(std::vector<CaseRuns>& cases) {

@@ -1,6 +1,6 @@
 #include "launchsafe/scene/plan.hpp"
-#include "launchsafe/study/calibration_record.hpp"
 #include "launchsafe/study/case_answer.hpp"
+#include "launchsafe/study/constants_of_study.hpp"
 
 #include <ranges>
 
@@ -98,31 +98,8 @@ double stated_input_share(const Study& study, const StudyCase& input) {
   return study.input_uncertainty * (growth <= 1.0 ? 1.0 : growth);
 }
 
-std::optional<double> stated_model_form_share(const Study& study, const StudyCase& input,
-                                              const ModelFormShift& recorded) {
-  if (!study.kind.gives_verdicts) return 0.0;
-  const bool stated = std::isfinite(study.model_form_uncertainty);
-  if (std::isfinite(recorded.gap)) return std::nullopt;
-  // What a study states is of its own scene; what is assumed, of the calibrated launch.
-  const double ratio = stated ? input.pressure_ratio
-                              : scene::PressureHistory(input.scene.scene.load).stated_peak() /
-                                    scene::PressureHistory(study.calibration.scene.load).stated_peak();
-  const double growth = std::pow(ratio, heat_exponent);
-  return (stated ? study.model_form_uncertainty : assumed_model_form) * (growth <= 1.0 ? 1.0 : growth);
-}
-
-std::string AssumedShares::text() const {
-  if (computation) return model_form ? "computation, model form" : "computation";
-  return model_form ? "model form" : "";
-}
-
-AssumedShares assumed_shares(const Study& study, const StudyCase& input, double critical_gap) {
-  const auto recorded =
-      study.model_form ? model_form_shift(*study.model_form, input.scene.scene) : CaseStatements{}.model_form;
-  return {
-      .computation = input.numerical_uncertainty_assumed || critical_gap > input.covered_gap * (1.0 + 1e-9),
-      .model_form =
-          !std::isfinite(study.model_form_uncertainty) && stated_model_form_share(study, input, recorded)};
+bool assumes_computation(const StudyCase& input, double critical_gap) {
+  return input.numerical_uncertainty_assumed || critical_gap > input.covered_gap * (1.0 + 1e-9);
 }
 
 double load_curve_share(const scene::Load& load) {

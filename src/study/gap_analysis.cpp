@@ -71,16 +71,42 @@ double input_share(const Study& study, const CaseOutcome& outcome, const OfAllRo
 double thicker_gap_share(const CaseOutcome& outcome, const SharedTrace& trace, const GapVerdict& row,
                          double thicker) {
   constexpr double least = 1e-9;  // m
+  if (std::isnan(thicker)) return thicker;
   if (thicker < least) return 0.0;
   return raised_share({{}, surface::skin_model(outcome.input.scene.scene), trace, thicker}, row);
 }
 
-/// K by which T max of a gap is higher where other models move the critical gap towards ignition.
+/// The smallest and the largest critical gap (m) under other constants; NaN where one is not known.
+struct GapsOfModels {
+  GapOrBound smallest = not_a_number, largest = not_a_number;
+};
+GapsOfModels range_of_models(const Study& study, const CaseOutcome& outcome) {
+  const std::vector<GapOrBound> gaps = of_each(outcome.models, &ModelGap::critical_gap);
+  const bool known = std::ranges::none_of(gaps, [](GapOrBound gap) { return std::isnan(gap); });
+  if (gaps.empty() || gaps.size() != study.models.size() || !known) return {};
+  const auto [smallest, largest] = std::ranges::minmax(gaps);
+  return {smallest, largest};
+}
+
+/// By other constants the critical gap moves from its bracket, or from no ignition, to theirs.
+GapShare share_of_models(const Study& study, const CaseOutcome& outcome) {
+  const CriticalGap& own = outcome.critical;
+  const auto [smallest, largest] = range_of_models(study, outcome);
+  const bool is_value = own.kind == CriticalGapKind::value;
+  // NaN comes first, and stays.
+  return {ShareKind::model_form, std::min(smallest, is_value ? own.lower : no_ignition),
+          std::max(largest, is_value ? own.upper : no_ignition)};
+}
+
+/// K by which T max of a gap is higher where it is thicker by as much as other constants move the critical
+/// gap towards ignition.
 double model_form_share(const Study& study, const CaseOutcome& outcome, const SharedTrace& trace,
                         const GapVerdict& row) {
-  const ModelFormShift& recorded = outcome.evidence->input.model_form;
-  if (const auto stated = stated_model_form_share(study, outcome.input, recorded)) return *stated;
-  return thicker_gap_share(outcome, trace, row, recorded.gap);
+  if (study.models.empty()) return 0.0;
+  const CriticalGap& own = outcome.critical;
+  const GapOrBound found = std::isnan(own.indicative) ? gap_or_bound(own) : own.indicative;
+  const double safe = own.kind == CriticalGapKind::value ? own.lower : std::min(found, largest_gap(study));
+  return thicker_gap_share(outcome, trace, row, safe - range_of_models(study, outcome).smallest);
 }
 
 /// The shares of a row that its study, its accuracy record and the calibration's evidence give. Errors grow
@@ -148,8 +174,6 @@ GapVerdict row_at_critical_gap(const Study& study, const CaseOutcome& outcome) {
       run::evaluate_gap(outcome.input.scene.scene, outcome.result.mechanics.trace, outcome.critical.lower);
   GapVerdict row = row_of(study, outcome, of_all_rows(study, outcome), gap);
   row.uncertainty.coupling = coupling_share(outcome);
-  if (misses_calibrated_rows(outcome))
-    row.uncertainty.numerical = std::max(row.uncertainty.numerical, assumed_numerical_uncertainty);
   return row;
 }
 
@@ -173,6 +197,7 @@ void find_bounds_of_critical_gap(const Study& study, CaseOutcome& outcome) {
     share.lowered =
         away == lowered.end() ? critical.upper : critical_gap_of(study, critical, *away, End::away);
   });
+  if (!study.models.empty()) shares.push_back(share_of_models(study, outcome));
   set_shares(critical, std::move(shares));
 }
 
@@ -202,9 +227,12 @@ std::vector<std::string> validity_warnings_of(const CaseOutcome& outcome) {
 CaseEvidence evidence_of(const Study& study, const CaseOutcome& outcome) {
   constexpr double unasked = math::infinity;
   const bool asks = study.kind.gives_verdicts && outcome.completed() && has_trace(outcome);
-  return {outcome.failure, outcome.result.mechanics.limiters, validity_warnings_of(outcome),
+  return {outcome.failure,
+          outcome.result.mechanics.limiters,
+          validity_warnings_of(outcome),
           asks ? outcome.heated_without_gap - outcome.input.scene.scene.initial_temperature : unasked,
-          statements_of(study, outcome.input)};
+          statements_of(study, outcome.input),
+          failed_models(outcome.models)};
 }
 
 void find_critical_gaps(const Study& study, CaseOutcome& outcome) {
@@ -233,7 +261,32 @@ void evaluate_gaps(const Study& study, CaseOutcome& outcome) {
   attach_references(study, outcome.input, outcome.verdicts);
 }
 
+/// The search on a launch under other constants, with their skin.
+ModelGap gap_of_model(const Study& study, const scene::Scene& scene, const FinishedRun& run) {
+  ModelGap gap{run.model, not_a_number, run.failure};
+  const run::MechanicsResult& mechanics = run.result.mechanics;
+  if (gap.failure.empty())
+    gap.failure = fmt::format("{}", fmt::join(run::validity_warnings(scene, mechanics), "; "));
+  if (!gap.failure.empty()) return gap;
+  const surface::IgnitionOfGaps ignites(surface::skin_model(scene), mechanics.trace);
+  gap.critical_gap = smallest_igniting_gap(std::cref(ignites), 0.0, largest_gap(study), bracket_width(study));
+  if (std::isnan(gap.critical_gap)) gap.failure = "a temperature is not a number";
+  return gap;
+}
+
 }  // namespace
+
+std::vector<ModelGap> gaps_of_models(const Study& study, const StudyCase& input,
+                                     const std::vector<FinishedRun>& runs) {
+  std::vector<ModelGap> gaps(study.models.size());
+  run_parts(gaps.size(), [&](std::size_t i) {
+    const auto& model = study.models[i];
+    gaps[i] = {.name = name_of_model(*model), .failure = "not run"};
+    const auto run = std::ranges::find(runs, gaps[i].name, &FinishedRun::model);
+    if (run != runs.end()) gaps[i] = gap_of_model(study, scene_of_model(input, model), *run);
+  });
+  return gaps;
+}
 
 Peak peak_of(const surface::Maximum& maximum, const BottomTrace& trace) {
   return {maximum.temperature, maximum.time, trace.name_of(maximum.station)};
@@ -314,21 +367,11 @@ void apply_confirmations(const Study& study, CaseOutcome& outcome) {
     }
 }
 
-bool misses_calibrated_rows(const CaseOutcome& outcome) {
-  constexpr double slack = 0.5;  // K
-  return std::ranges::any_of(outcome.verdicts, [](const GapVerdict& row) {
-    return row.reference && row.reference->calibrated && !(std::abs(row.misfit()) <= slack);
-  });
-}
-
 void conclude(const Study& study, CaseOutcome& outcome) {
   const double coupling = coupling_share(outcome);
-  const bool foreign = misses_calibrated_rows(outcome);
   std::vector<double> gaps, temperatures;
   for (GapVerdict& row : outcome.verdicts) {
     row.uncertainty.coupling = coupling;
-    if (foreign)
-      row.uncertainty.numerical = std::max(row.uncertainty.numerical, assumed_numerical_uncertainty);
     if (row.ignition || !outcome.completed()) continue;
     gaps.push_back(row.gap);
     temperatures.push_back(row.maximum.temperature);

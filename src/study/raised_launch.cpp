@@ -62,11 +62,6 @@ struct Causes {
     const bool slides = friction_share(outcome) > 0.0 || opening_at_base(outcome) > 0.0;
     if (u.sliding > 0.0 && slides) add_sliding();
     add_temperature(ShareKind::fit, u.fit);
-    const ModelFormShift& shift = outcome.evidence->input.model_form;
-    if (const auto stated = stated_model_form_share(study, outcome.input, shift))
-      add_temperature(ShareKind::model_form, *stated);
-    else
-      add(ShareKind::model_form, skin, trace, towards() ? shift.gap : -shift.later);
     add_accepted();
   }
 

@@ -64,7 +64,9 @@ bool same_interfaces(const Scene& scene, const Scene& recorded, bool shells_agre
     const bool same_body = shells_agree ? share_place(*body, *other) : body->name == other->name;
     return same_body && a.condition == b.condition && a.friction == b.friction && a.against == b.against;
   };
-  return std::is_permutation(ours.begin(), ours.end(), theirs.begin(), theirs.end(), same);
+  return ours.size() == theirs.size() && std::ranges::all_of(ours, [&](const Interface& a) {
+           return std::ranges::any_of(theirs, [&](const Interface& b) { return same(a, b); });
+         });
 }
 
 std::string points_value(const Scene& scene) {
@@ -244,20 +246,17 @@ enum class Effect { none, carried, foreign, carried_if_hotter };
 Effect effect_on(RecordKind record, const Difference& difference) {
   using enum Effect;
   // Of each part to the kinds of record, in their orders.
-  constexpr std::array<std::array<Effect, 3>, 8> effects{{
-      {carried_if_hotter, foreign, carried_if_hotter},  // constant
-      {foreign, foreign, foreign},                      // model
-      {carried_if_hotter, none, carried_if_hotter},     // calibrated
-      {carried, none, carried},                         // range
-      {carried, none, carried},                         // load_shape
-      {carried, none, none},                            // setting
-      {none, none, none},                               // minor_setting
-      {none, none, none},                               // free
+  constexpr std::array<std::array<Effect, 2>, 8> effects{{
+      {carried_if_hotter, foreign},  // constant
+      {foreign, foreign},            // model
+      {carried_if_hotter, none},     // calibrated
+      {carried, none},               // range
+      {carried, none},               // load_shape
+      {carried, none},               // setting
+      {none, none},                  // minor_setting
+      {none, none},                  // free
   }};
   const keys::Role role = difference.key.role();
-  // Models are compared over the peak pressures of their record.
-  if (role.part == Part::range && record == RecordKind::model_form && difference.key.name == "load.peak")
-    return none;
   // What heats the skin alone is among the numbers of the recorded launch; the chemistry comes after it.
   if (role.part == Part::constant && record == RecordKind::accuracy &&
       (!keys::reaches_mechanics(role.acts_on) || role.acts_on == ActsOn::chemistry))

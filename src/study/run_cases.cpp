@@ -172,6 +172,7 @@ struct CaseLoop {
     OpenCase& open = open_cases[i];
     if (j == 0) open.spoilt = !run.failure.empty();
     open.runs[j] = std::move(run);
+    open.runs[j].model = cases[i].runs[j].model;
     if (--open.left > 0) return;
     const FinishedRun* lacking = run_without_result(open.runs);
     const FinishedRun& decisive = lacking != nullptr ? *lacking : open.runs.front();
@@ -242,8 +243,9 @@ bool FinishedRun::has_result() const {
 
 const FinishedRun* run_without_result(const std::vector<FinishedRun>& runs) {
   for (const FinishedRun& run : runs) {
-    if (!run.has_result()) return &run;
-    if (!run.failure.empty()) return nullptr;
+    const bool failed = run.outcome == RunOutcome::failed || run.outcome == RunOutcome::refused;
+    if (!run.has_result() && (run.model.empty() || !failed)) return &run;
+    if (run.model.empty() && !run.failure.empty()) return nullptr;
   }
   return nullptr;
 }

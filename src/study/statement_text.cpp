@@ -100,11 +100,16 @@ std::string limiters_text(const GapVerdict& row) {
   return row.of_case == nullptr ? std::string{} : run::to_string(row.of_case->limited);
 }
 
-std::string models_text(const GapVerdict& row) {
-  if (row.models.empty()) return {};
-  return fmt::format("{}\"{}\"",
-                     row.ignition ? "no ignition, or none known, under " : "ignition not excluded under ",
-                     fmt::join(row.models, "\", \""));
+std::string failed_models(const std::vector<ModelGap>& models) {
+  std::vector<std::string> failed;
+  for (const ModelGap& each : models)
+    if (!each.failure.empty())
+      failed.push_back(fmt::format("the launch under constants {} failed: {}", each.name, each.failure));
+  return fmt::format("{}", fmt::join(failed, "; "));
+}
+
+std::string failed_models_text(const GapVerdict& row) {
+  return row.of_case == nullptr ? std::string{} : row.of_case->failed_models;
 }
 
 std::string extrapolated_text(const GapVerdict& row) {
@@ -144,7 +149,7 @@ std::string reason_text(const GapVerdict& row) {
   const CaseEvidence& of_case = *row.of_case;
   const std::string limiters = limiters_text(row);
   add(limiters.empty() ? limiters : "limiters acted: " + limiters);
-  add(models_text(row));
+  add(failed_models_text(row));
   add(extrapolated_text(row));
   // The user's words come last: what the program says stands before them, whatever they are.
   add(accepted_text(of_case.input));

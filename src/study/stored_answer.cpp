@@ -79,11 +79,13 @@ void describe(Values& values, CriticalGap& gap) {
   if (bounded) set_shares(gap, std::exchange(gap.shares, {}));
 }
 
+void describe(Values& values, ModelGap& model) { values.add(model.name, model.critical_gap, model.failure); }
+
 void describe(Values& values, CaseAnswer& answer) {
   values.add(answer.failure, answer.friction_rise, answer.run.status, answer.run.steps, answer.run.particles,
              answer.run.energy_drift);
   for (const run::Limiter& each : run::limiters) values.add(answer.run.limiters.*each.member);
-  values.add(answer.runs, answer.validity_warnings, answer.critical, answer.verdicts);
+  values.add(answer.runs, answer.validity_warnings, answer.critical, answer.models, answer.verdicts);
 }
 
 }  // namespace

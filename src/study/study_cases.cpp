@@ -108,10 +108,7 @@ std::string case_label(const Study& study, const StudyCase& made) {
 
 std::string to_string(scene::FrictionClosure closure) { return std::string(scene::word_of(closure)); }
 
-std::string to_string(Use use) {
-  constexpr std::array words{"held out", "chosen by", "fitted"};
-  return words.at(static_cast<std::size_t>(use));
-}
+std::string to_string(Use use) { return use == Use::fitted ? "fitted" : "check"; }
 
 const StudyCase Cases::operator[](std::size_t index) const {
   const Row& row = rows_[index];

@@ -1,30 +1,13 @@
 #include "launchsafe/study/verdict.hpp"
 
-#include "launchsafe/study/calibration_record.hpp"
+#include "launchsafe/study/constants_of_study.hpp"
 
 namespace launchsafe::study {
 namespace {
 
-/// A peak pressure at which no other model of the launch was looked at: how wrong the one is there nobody
-/// knows, whatever is assumed or stated of it.
-std::optional<scene::Implausible> pressure_beyond_models(const Study& study, const StudyCase& input) {
-  const scene::Scene& scene = input.scene.scene;
-  const scene::Limits compared = compared_pressures(study.model_form);
-  constexpr double round_off = 1e-9;
-  const double peak = scene::PressureHistory(scene.load).stated_peak();
-  if (peak >= compared.lowest * (1.0 - round_off) && peak <= compared.highest * (1.0 + round_off))
-    return std::nullopt;
-  return scene::implausible(
-      scene.accepted, {.kind = keys::KeyKind::number, .dimension = scene::Dimension::pressure},
-      scene::pressure_of_models, keys::Value(peak),
-      fmt::format("{} to {}, because other models of the launch were compared only there",
-                  scene::pressure_text(compared.lowest), scene::pressure_text(compared.highest)));
-}
-
 std::vector<scene::Implausible> implausible_in(const Study& study, const StudyCase& input,
                                                const scene::RigidMotion& launch) {
   std::vector<scene::Implausible> values = study.implausible;
-  if (auto beyond = pressure_beyond_models(study, input)) values.push_back(std::move(*beyond));
   std::ranges::move(scene::implausible_values(input.scene.scene, launch), std::back_inserter(values));
   return values;
 }
@@ -125,7 +108,6 @@ CaseStatements statements_of(const Study& study, const StudyCase& input) {
   CaseStatements all;
   all.uncovered_load = run::uncovered_load(scene.load);
   all.optimistic = optimistic_by_input(study, scene, launch);
-  if (study.model_form) all.model_form = model_form_shift(*study.model_form, scene);
   // No stress case of a stability study may pass because its input is called implausible.
   if (!study.kind.gives_verdicts) return all;
   all.distance = distance_to_record(RecordKind::calibration, scene, study.calibration.scene);
@@ -283,11 +265,8 @@ double GapVerdict::early_misfit() const {
 
 void judge_rows(const Study& study, const std::shared_ptr<const CaseEvidence>& of_case,
                 const CriticalGap& critical, std::vector<GapVerdict>& rows) {
-  const std::optional<PressureInterval>& around = of_case->input.model_form.around;
   for (GapVerdict& row : rows) {
     row.of_case = of_case;
-    if (around)
-      row.models = models_that_differ(*study.model_form, *around, row.gap, row.ignition.has_value());
     row.judgement = judge(row, critical);
   }
 }

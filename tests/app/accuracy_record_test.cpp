@@ -27,8 +27,7 @@ class AccuracyRecordProgram : public Program {
   Outcome use(const std::string& keys, const std::vector<std::string>& more = {}) {
     write("gaps.toml",
           "kind = \"critical-gap\"\nscene = \"shell.toml\"\nconfirm = false\ninput_uncertainty = { value = "
-          "\"2 K\", because = \"for a test\" }\nmodel_form_uncertainty = { value = \"1 K\", because = \"for "
-          "a test\" }\n" +
+          "\"2 K\", because = \"for a test\" }\n" +
               early + keys);
     std::vector<std::string> arguments{"study", "gaps.toml", "-o", "used", "--update"};
     arguments.insert(arguments.end(), more.begin(), more.end());

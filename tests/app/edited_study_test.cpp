@@ -30,7 +30,6 @@ confirm = false
 numerical_uncertainty = { value = "5 K", because = "for a test" }
 fit_uncertainty = { value = "3 K", because = "for a test" }
 input_uncertainty = { value = "5 K", because = "for a test" }
-model_form_uncertainty = { value = "1 K", because = "for a test" }
 )";
 
 /// The shipped scene with every key written, on few cells and with so much inertia that a launch takes a

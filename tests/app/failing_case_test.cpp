@@ -14,7 +14,6 @@ gaps = "0, 0.01 cm"
 largest_gap = "1 cm"
 early_time = "0.03 ms"
 input_uncertainty = { value = "2 K", because = "for a test" }
-model_form_uncertainty = { value = "1 K", because = "for a test" }
 
 [[vary]]
 key = "peak_pressure"

@@ -37,7 +37,6 @@ confirm = false
 numerical_uncertainty = { value = "5 K", because = "for a test" }
 fit_uncertainty = { value = "3 K", because = "for a test" }
 input_uncertainty = { value = "5 K", because = "for a test" }
-model_form_uncertainty = { value = "1 K", because = "for a test" }
 )";
 
 /// A pulse as a gun makes it, in ms and MPa.
@@ -172,7 +171,7 @@ TEST_F(NeverSafe, AMaterialReactsByItsOwnKineticsWhichEveryPageHas) {
 
 TEST_F(NeverSafe, OtherKineticsBesideThoseOfAMaterialAreRefusedWithBothPlaces) {
   std::vector<Edit> edits = with_hot_mix();
-  edits.push_back({"shell.toml", "[kinetics]\n", "[kinetics]\nactivation_temperature = \"21700 K\"\n"});
+  edits.push_back({"shell.toml", "[gap]\n", "[kinetics]\nactivation_temperature = \"21700 K\"\n[gap]\n"});
   const Outcome outcome = run_edited(edits);
   EXPECT_EQ(outcome.code, 2) << outcome.out;
   EXPECT_TRUE(outcome.says("kinetics.activation_temperature: found")) << outcome.err;
@@ -249,7 +248,6 @@ INSTANTIATE_TEST_SUITE_P(
         Mistake{"BarTypedAsPsi", in_scene("496 MPa", "4960 psi"), "load.launch_speed"},
         Mistake{"KsiTypedAsMegapascal", in_scene("496 MPa", "72 MPa"), "load.launch_speed"},
         Mistake{"KilogramsForceTypedAsMegapascal", in_scene("496 MPa", "50.6 MPa"), "load.launch_speed"},
-        Mistake{"HalfThePressure", in_scene("496 MPa", "248 MPa"), "model_form.pressure = 248 MPa"},
         Mistake{"SwappedDigits", in_scene("496 MPa", "946 MPa"), "load.launch_speed"},
         Mistake{"NoLoad", with_curve("time_ms,pressure_MPa\n0,0\n9,0\n18,0\n"), "load.measured_peak"},
         Mistake{"LateIgnition", in_scene("[kinetics]\n", "[kinetics]\nignition_temperature = \"700 K\"\n"),

@@ -17,8 +17,7 @@ class HangingPicture : public StoredStudy {
     before_start([path] { ::setenv("PATH", path.c_str(), 1); });
     write(
         "study.toml",
-        "kind = \"critical-gap\"\nscene = \"shell.toml\"\nmodel_form_uncertainty = { value = \"1 K\", "
-        "because = \"for a test\" }\nearly_time = "
+        "kind = \"critical-gap\"\nscene = \"shell.toml\"\nearly_time = "
         "\"0.03 ms\"\ninput_uncertainty = { value = \"2 K\", because = \"for a test\" }\nconfirm = false\n");
   }
 };

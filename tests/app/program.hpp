@@ -46,6 +46,11 @@ trace_interval = "5 us"
 [station]
 width = "1.5 cm"
 depth = "1 cm"
+
+[interface]
+cup.condition = "bonded"
+wall.condition = "bonded"
+base.condition = "bonded"
 )" + testing::small_shell + testing::small_shell_base +
                                       testing::small_shell_point + R"(
 [[accept]]
@@ -75,22 +80,6 @@ because = "a launch that takes milliseconds to compute"
 [[accept]]
 key = "load.launch_speed"
 value = "9 to 15 m/s"
-because = "a launch that takes milliseconds to compute"
-[[accept]]
-key = "model_form.pressure"
-value = "50 to 100 MPa"
-because = "a launch that takes milliseconds to compute"
-[[accept]]
-key = "model_form.pressure"
-value = "100 to 200 MPa"
-because = "a launch that takes milliseconds to compute"
-[[accept]]
-key = "model_form.pressure"
-value = "200 to 400 MPa"
-because = "a launch that takes milliseconds to compute"
-[[accept]]
-key = "model_form.pressure"
-value = "550 to 1100 MPa"
 because = "a launch that takes milliseconds to compute"
 [[accept]]
 key = "load.travel"

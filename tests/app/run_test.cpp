@@ -14,7 +14,8 @@ TEST_F(RunProgram, PrintsATableAndWritesACaseFile) {
   write("shell.toml", tiny_scene);
   const Outcome outcome = run({"run", "shell.toml", "-o", "out/deep"});
   EXPECT_EQ(outcome.code, 0) << outcome.err;
-  for (const std::string part : {"a small shell", "9.019 m/s", "0.000933 m", "T max [K]", "G1"}) {
+  for (const std::string part :
+       {"a small shell", "9.019 m/s", "0.000933 m", "T max [K]", "G1", "net work done on it"}) {
     EXPECT_NE(outcome.out.find(part), std::string::npos) << part << " in\n" << outcome.out;
   }
   const auto stored = store::read_case_file(folder() / "out/deep/shell.h5");
@@ -43,6 +44,8 @@ TEST_F(RunProgram, JsonIsOneObjectAndNothingElse) {
   EXPECT_TRUE(object["gaps"][1]["ignition"].is_null());
   EXPECT_GT(object["timing"]["updates_per_second"], 0.0);
   EXPECT_TRUE(object["energy"].contains("drift"));
+  for (const char* key : {"largest_plastic_strain_percent", "yielded_wall_mm", "friction_over_work"})
+    EXPECT_TRUE(object["effects"].contains(key)) << key;
   EXPECT_TRUE(object["file"].is_null());
 }
 

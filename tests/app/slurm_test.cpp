@@ -13,7 +13,6 @@ early_time = "0.03 ms"
 gaps = "0, 0.01 cm"
 confirm = false
 input_uncertainty = { value = "2 K", because = "for a test" }
-model_form_uncertainty = { value = "1 K", because = "for a test" }
 
 [[vary]]
 key = "peak_pressure"

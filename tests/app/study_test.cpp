@@ -11,7 +11,6 @@ scene = "shell.toml"
 gaps = "0, 0.01, 0.02 cm"
 early_time = "0.03 ms"
 input_uncertainty = { value = "2 K", because = "for a test" }
-model_form_uncertainty = { value = "1 K", because = "for a test" }
 )";
 
 class StudyProgram : public Program {

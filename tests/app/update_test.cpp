@@ -9,7 +9,7 @@ class ChangedStudy : public StoredStudy {
   void SetUp() override {
     StoredStudy::SetUp();
     first_ = run({"study", "study.toml", "-o", "out"});
-    ASSERT_EQ(first_.code, 0) << first_.err;
+    ASSERT_EQ(first_.code, 0) << first_.out << first_.err;
     page_ = read("out/report.md");
   }
   Outcome update() { return run({"study", "study.toml", "-o", "out", "--update"}); }

@@ -38,8 +38,7 @@ std::string large_sweep(int pressures, int radii) {
   for (int i = 0; i < pressures; ++i) peaks += fmt::format("{}{}", i > 0 ? ", " : "", 300 + 2 * i);
   for (int i = 0; i < radii; ++i) sizes += fmt::format("{}{}", i > 0 ? ", " : "", 10 + i);
   return critical_kind +
-         "input_uncertainty = { value = \"1 K\", because = \"for a test\" }\n"
-         "model_form_uncertainty = { value = \"1 K\", because = \"for a test\" }\ngaps = \"0, 0.02 cm\"\n" +
+         "input_uncertainty = { value = \"1 K\", because = \"for a test\" }\ngaps = \"0, 0.02 cm\"\n" +
          vary({{"peak_pressure", peaks + " MPa"}, {"crack_radius", sizes + " um"}}) + synthetic_constants;
 }
 

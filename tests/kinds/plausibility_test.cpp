@@ -25,8 +25,7 @@ std::string stated(const std::string& key, const std::string& value) {
 /// A study that finds the gap 0 safe; more top-level keys before, more overrides after.
 std::string safe_study(const std::string& keys, const std::string& overrides = "") {
   std::string text = keys + critical_kind + "gaps = \"0 cm\"\nconfirm = false\n";
-  for (const std::string key :
-       {"numerical_uncertainty", "fit_uncertainty", "input_uncertainty", "model_form_uncertainty"}) {
+  for (const std::string key : {"numerical_uncertainty", "fit_uncertainty", "input_uncertainty"}) {
     if (keys.find(key) == std::string::npos) text += stated(key, "1 K");
   }
   return text + synthetic_constants + overrides;
@@ -89,8 +88,7 @@ TEST(StudyPlausibility, AnImplausibleValueIsIndeterminateUntilItIsAccepted) {
 }
 
 TEST(StudyPlausibility, AStatedUncertaintyMustBePlausibleToo) {
-  for (const std::string key :
-       {"numerical_uncertainty", "fit_uncertainty", "input_uncertainty", "model_form_uncertainty"}) {
+  for (const std::string key : {"numerical_uncertainty", "fit_uncertainty", "input_uncertainty"}) {
     for (const std::string value : {"0 K", "0.01 K"}) {
       const std::string statement = stated(key, value),
                         accepted = accept(key + ".value", value, "a test of the search");
@@ -109,18 +107,6 @@ TEST(StudyPlausibility, EveryCaseOfASweepIsJudgedOnItsOwnValues) {
   ASSERT_EQ(result.answers.size(), 2u);
   EXPECT_EQ(result.answers[0].verdicts[0].judgement.verdict, Verdict::safe);
   EXPECT_EQ(result.answers[1].verdicts[0].judgement.verdict, Verdict::indeterminate);
-}
-
-// Models were compared from 400 to 550 MPa (studies/models).
-TEST(StudyPlausibility, NothingIsSafeBeyondThePressuresOfOtherModelsWithoutAReason) {
-  const std::string half = "load.peak = \"300 MPa\"\n";
-  const Told warned = judgement_in(run_safe_study("", half));
-  EXPECT_EQ(warned.verdict, Verdict::indeterminate);
-  EXPECT_TRUE(says(warned.reason, "model_form.pressure = 300 MPa")) << warned.reason;
-  const Told accepted = judgement_in(
-      run_safe_study(accept("model_form.pressure", "300 MPa", "a charge of a lower zone"), half));
-  EXPECT_EQ(accepted.verdict, Verdict::safe) << accepted.reason;
-  EXPECT_EQ(judgement_in(run_safe_study("", "load.peak = \"400 MPa\"\n")).verdict, Verdict::safe);
 }
 
 TEST(StudyPlausibility, WhatAStudySetsHasToGiveTheExpectedVelocityToo) {

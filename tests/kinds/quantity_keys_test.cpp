@@ -33,18 +33,23 @@ StabilityResult stability_with_a_launch() {
 std::vector<report::Report> reports_of_all_kinds() {
   const std::string gaps =
       "gaps = \"0, 0.03, 0.06 cm\"\nreference = [{ gap = \"0 cm\", maximum_temperature = "
-      "\"416.1 K\", point = \"G2\", calibrated = true }]\n";
+      "\"416.1 K\", point = \"G2\" }]\n";
   const auto critical = run_critical_gap(
       study::study_of(study::critical_text + gaps + study::synthetic_constants), study::synthetic_options());
-  study::StudyFile shipped = *read_study(study::studies_folder / "calibrate_table8.toml");
-  kinds::settings_of<CalibrationSettings>(shipped.study).load_fitted = false;
+  const std::string row = "{ scene = \"scene_155mm.toml\", gap = ";
+  const study::StudyFile calibration = study::study_of(
+      "kind = \"calibration\"\nscene = \"scene_155mm.toml\"\nfit = \"friction.localisation, "
+      "gap.exchange_time\"\nreference = [" +
+      row + "\"0 cm\", maximum_temperature = \"416.1 K\" }, " + row +
+      "\"0.02 cm\", maximum_temperature = \"467.7 K\" }, " + row +
+      "\"0.04 cm\", ignition_time = \"17.7 ms\" }]\n");
   const auto accuracy = run_accuracy(
       study::study_of("kind = \"accuracy\"\nscene = \"scene_155mm.toml\"\ngaps = \"0, 0.02 cm\"\n"
                       "reference_cell_sizes = \"0.625, 1.25, 2.5 mm\"\n" +
                       study::constants_on_even_lattice),
       study::synthetic_options(2));
   return {report_of(made_sweep()), report_of(made_sensitivity()),
-          report_of(critical),     report_of(run_calibration(shipped, study::synthetic_options())),
+          report_of(critical),     report_of(run_calibration(calibration, study::synthetic_options())),
           report_of(accuracy),     report_of(stability_with_a_launch())};
 }
 

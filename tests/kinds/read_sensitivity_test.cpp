@@ -1,6 +1,6 @@
 #include "launchsafe/kinds/sensitivity.hpp"
-#include "launchsafe/study/calibration_record.hpp"
 #include "launchsafe/study/case_answer.hpp"
+#include "launchsafe/study/constants_of_study.hpp"
 #include "sensitivity_files.hpp"
 #include "study/read_error.hpp"
 

@@ -58,21 +58,15 @@ TEST_F(RefusedRun, OfAConfirmationIsJournaled) {
 
 TEST_F(RefusedRun, OfACalibrationIsJournaled) {
   const auto store = open_store();
-  const std::string rows =
-      "reference = [ { scene = \"scene_155mm.toml\", gap = \"0 cm\", maximum_temperature = \"416 K\", "
-      "calibrated = true },\n"
-      "{ scene = \"scene_155mm.toml\", gap = \"0.02 cm\", maximum_temperature = \"467 K\", calibrated = true "
-      "},\n"
-      "{ scene = \"scene_155mm.toml\", gap = \"0.03 cm\", maximum_temperature = \"493 K\" },\n"
-      "{ scene = \"scene_155mm.toml\", gap = \"0.04 cm\", maximum_temperature = \"800 K\", ignition_time = "
-      "\"17.7 ms\" } ]\n";
   const StudyFile study =
-      study_of("kind = \"calibration\"\nscene = \"scene_155mm.toml\"\nmeshes = \"5, 10 mm\"\n" + rows +
+      study_of("kind = \"calibration\"\nscene = \"scene_155mm.toml\"\nreferences = \"table8.toml\"\n" +
                synthetic_constants);
   const CalibrationResult result = run_calibration(study, options_with(*store, one_byte));
-  for (const CalibrationRun& run : result.runs) EXPECT_FALSE(run.failure.empty());
+  EXPECT_FALSE(result.constants);
+  EXPECT_EQ(result.run.outcome, RunOutcome::refused);
+  EXPECT_NE(result.failure.find("memory"), std::string::npos) << result.failure;
   const auto entries = refused(*store);
-  ASSERT_EQ(entries.size(), 2u);
+  ASSERT_EQ(entries.size(), 1u);
   for (const auto& entry : entries) EXPECT_NE(entry.reason.find("memory"), std::string::npos) << entry.reason;
 }
 

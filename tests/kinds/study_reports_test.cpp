@@ -1,9 +1,9 @@
 // The pages, tables and JSON of studies on a launch in closed form.
-#include "launchsafe/kinds/calibration.hpp"
 #include "launchsafe/kinds/critical_gap.hpp"
 #include "launchsafe/kinds/kind.hpp"
 #include "launchsafe/report/study_text.hpp"
 #include "launchsafe/report/table.hpp"
+#include "launchsafe/scene/constants.hpp"
 #include "report/report_folder.hpp"
 #include "study/synthetic_launch.hpp"
 
@@ -16,11 +16,10 @@ using namespace launchsafe::kinds;
 using namespace launchsafe::study;
 using report::json_of;
 
-const std::string study_text =
-    critical_text +
-    "title = \"A test\"\ngaps = \"0, 0.03, 0.06 cm\"\n"
-    "reference = [{ gap = \"0 cm\", maximum_temperature = \"416.1 K\", point = \"G2\", "
-    "calibrated = true }, { gap = \"0.03 cm\", maximum_temperature = \"492.9 K\" }]\n";
+const std::string study_text = critical_text +
+                               "title = \"A test\"\ngaps = \"0, 0.03, 0.06 cm\"\n"
+                               "reference = [{ gap = \"0 cm\", maximum_temperature = \"416.1 K\", point = "
+                               "\"G2\" }, { gap = \"0.03 cm\", maximum_temperature = \"492.9 K\" }]\n";
 
 CriticalGapResult one_case() {
   return run_critical_gap(study_of(study_text + synthetic_constants), synthetic_options());
@@ -45,8 +44,6 @@ TEST(CriticalGapReport, JsonHasTheKeysThatOtherProgramsReadFrom) {
     EXPECT_TRUE(json["verdicts"][0].contains(key)) << key;
   }
   ASSERT_EQ(json["comparison"].size(), 2u);
-  EXPECT_EQ(json["comparison"][0]["used_for"], "fitted");
-  EXPECT_EQ(json["comparison"][1]["used_for"], "held out");
   EXPECT_EQ(json["comparison"][1]["temperature_max_published_K"], 492.9);
   EXPECT_TRUE(json["verdicts"][0]["ignition_cause"].is_null());
   EXPECT_EQ(json["verdicts"][2]["ignition_place"], "S2");
@@ -93,18 +90,16 @@ TEST(CriticalGapReport, AWideToleranceRaisesNoLowerBound) {
   EXPECT_EQ(wide.lower, fine.lower);
 }
 
-TEST(CalibrationReport, HoldsWhatTheEvidenceSupports) {
-  // The synthetic launch has one load, whatever the scene says.
-  StudyFile shipped = *read_study(studies_folder / "calibrate_table8.toml");
-  kinds::settings_of<kinds::CalibrationSettings>(shipped.study).load_fitted = false;
-  const CalibrationResult result = run_calibration(shipped, synthetic_options());
-  const auto json = json_of(result);
-  EXPECT_EQ(json["calibrations"].size(), result.rows.size());
-  EXPECT_GE(json["calibrations"].size(), 3u);
-  EXPECT_FALSE(json["compared"].empty());
-  ASSERT_TRUE(result.recommended_row.has_value()) << result.reason;
-  EXPECT_FALSE(kinds::constants_table(result).rows.empty());
-  EXPECT_EQ(report::render_report(kinds::report_of(result)).files.size(), 5u);
+// A published number is fitted where the constants of the scene were fitted to it.
+TEST(CriticalGapReport, TellsWhatTheConstantsWereFittedTo) {
+  StudyFile study = study_of(study_text + synthetic_constants);
+  scene::Constants constants;
+  constants.rows = {{"T at 18 ms", 0.0, 416.1, 416.0, "K", true},
+                    {"largest T", 3e-4, 492.9, 490.0, "K", false}};
+  study.scene.constants = std::make_shared<scene::Constants>(constants);
+  const auto json = json_of(run_critical_gap(study, synthetic_options()));
+  EXPECT_EQ(json["comparison"][0]["used_for"], "fitted");
+  EXPECT_EQ(json["comparison"][1]["used_for"], "check");
 }
 
 }  // namespace

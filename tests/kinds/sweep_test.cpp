@@ -69,23 +69,6 @@ TEST_F(StoredSweep, JudgesNewThermalValuesOnStoredRuns) {
   EXPECT_EQ(lines_of(result), lines_of(run_critical_gap(other, unstored.options())));
 }
 
-// A row that the constants were calibrated on and that is missed costs 60 K of uncertainty; whether it counts
-// as missed hangs on whether it ignited in the reference.
-TEST_F(StoredSweep, NeverUsesAnAnswerThatOtherReferencesLedTo) {
-  const auto with_reference = [](const std::string& more) {
-    return sweep_of(
-        "0, 0.02 cm", {}, "0.2 cm",
-        "[[reference]]\ngap = \"0 cm\"\nmaximum_temperature = \"416.1 K\"\ncalibrated = true\n" + more);
-  };
-  const StudyFile met = with_reference(""), ignited = with_reference("ignition_time = \"17 ms\"\n");
-  Counting first, second, fresh;
-  run(met, first);
-  const CriticalGapResult stored = run(ignited, second);
-  EXPECT_EQ(second.runs(), 0);
-  EXPECT_EQ(lines_of(stored), lines_of(run_critical_gap(ignited, fresh.options())));
-  EXPECT_NE(lines_of(stored), lines_of(run_critical_gap(met, fresh.options())));
-}
-
 TEST_F(StoredSweep, WhereNothingMayBeComputedOnlyWhatIsStoredCounts) {
   const StudyFile study = sweep_of("0 cm", {{"peak_pressure", "400, 496, 550 MPa"}});
   Counting first, second;

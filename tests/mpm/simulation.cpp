@@ -102,6 +102,27 @@ TEST(Simulation, KeepsTheRelativeMomentumZero) {
   EXPECT_NEAR(simulation.axial_momentum() / 10.0, 0.0, 1e-10 * given);
 }
 
+/// A charge in a rigid barrel is compressed along x alone, without return: the equivalent of its deviatoric
+/// strain is 2/3 of what its volume loses, and friction's heat so 2/3 mu_d of the work of the pressure, which
+/// is nearly linear in the volume.
+TEST(Simulation, HeatsAChargeByFrictionAsUniaxialCompressionSays) {
+  for (const scene::Formulation formulation : test_support::both_formulations) {
+    scene::Scene block = test_support::block("charge", 0.1, 0.02, 2.5e-3, formulation);
+    block.load = test_support::ramp(50e6, 1e-3);
+    mpm::Simulation simulation(block);
+    test_support::run_to(simulation, 1e-3);
+    const mpm::Body<materials::Charge>& charge = simulation.bodies_of<materials::Charge>()[0];
+    const mpm::ParticleFields& p = charge.particles;
+    double work = 0.0;
+    for (std::size_t slot = 0; slot < p.mass.size(); ++slot)
+      work += p.mass[slot] / charge.law.density * 0.5 * p.pressure[slot] * (1.0 - p.volume_ratio[slot]);
+    const mpm::EnergyTotals& energy = simulation.energy();
+    EXPECT_NEAR(energy.charge_friction / (charge.law.sliding_friction * work), 2.0 / 3.0, 0.02);
+    EXPECT_NEAR(energy.charge_work / energy.internal, 1.0, 1e-3) << "there is nothing else";
+    EXPECT_GT(energy.charge_work, work) << "the deviator takes work too";
+  }
+}
+
 TEST(Simulation, InertialScalingLengthensTheStepByItsRoot) {
   scene::Scene shell = test_support::shell_155(5e-3);
   const double plain = mpm::Simulation(shell).stable_time_step();

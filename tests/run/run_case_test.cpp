@@ -6,6 +6,8 @@
 
 #include <atomic>
 #include <cmath>
+#include <map>
+#include <numbers>
 #include <thread>
 
 namespace launchsafe::run {
@@ -144,6 +146,39 @@ TEST(RunMechanics, CellsOfSnapshotsTileTheBodiesAndHoldTheParticlesMass) {
   }
   EXPECT_NEAR(area, 0.74 * 0.0775, 1e-12) << "of the half section of the shell";
   EXPECT_GT(largest_change, 5e-3) << "the load has compressed the charge";
+}
+
+/// What a snapshot of the end tells of the wall and of the bulk, which friction alone heats.
+TEST(RunMechanics, TellsHowMuchOfTheWallYieldsAndTheHeatOfFrictionOverTheWork) {
+  scene::Scene scene = coarse_scene();
+  scene.steel().strength.a = 500e6;
+  scene.output.snapshot_times = {18e-3};
+  const MechanicsResult result = run_mechanics(scene);
+  ASSERT_EQ(result.snapshots.size(), 1u);
+  const Snapshot& end = result.snapshots.front();
+  const std::vector<double>& strain = end.state.find("plastic_strain")->second;
+  std::map<double, double> yielded;  // lengths of columns by their places, to a tenth of a millimetre
+  double heat = 0.0, largest = 0.0;
+  for (std::size_t i = 0; i < end.x.size(); ++i) {
+    const std::string& body = scene.bodies[static_cast<std::size_t>(end.body[i])].name;
+    if (body == "wall" && strain[i] > yield_of_wall)
+      yielded[std::round(1e4 * end.x[i])] = 2.0 * end.half_length_x[i];
+    largest = std::max(largest, strain[i]);
+    if (body == "charge")
+      heat += 2.0 * std::numbers::pi * volume_of_cell(end, i) * end.density[i] *
+              scene.charge().specific_heat * (end.temperature[i] - 300.0);
+  }
+  double length = 0.0;
+  for (const auto& [place, column] : yielded) length += column;
+  EXPECT_GT(result.yielded_wall, 0.05);
+  EXPECT_LT(result.yielded_wall, 0.56);
+  EXPECT_NEAR(result.yielded_wall / length, 1.0, 0.02);
+  EXPECT_EQ(result.largest_plastic_strain(), largest);
+  const EnergyBalance& energy = result.monitor.back().energy;
+  EXPECT_NEAR(energy.charge_friction / heat, 1.0, 0.01);
+  EXPECT_GT(energy.charge_work, 0.9 * (energy.viscous + energy.crack)) << "what it lost was done on it";
+  EXPECT_EQ(result.friction_over_work(), energy.charge_friction / energy.charge_work);
+  EXPECT_TRUE(std::isnan(MechanicsResult().friction_over_work()));
 }
 
 TEST(RunCase, HotterForWiderGapsAndTheSamplingErrorIsSmall) {

@@ -252,12 +252,16 @@ TEST(ValidityWarnings, ABulkAboveIgnitionWhoseReactionIsLeftOut) {
   EXPECT_TRUE(validity_warnings(scene, run).empty());
 }
 
-TEST(ValidityWarnings, SteelThatItsPlasticWorkMelts) {
+/// In a corner the strain grows as the particles come closer, on 1.25 mm of the shipped shell to 3.12 %.
+// A third of the charge of 560 mm.
+TEST(ValidityWarnings, AShellThatYields) {
   MechanicsResult run = sound_run();
-  run.monitor[2].largest_plastic_strain = 0.5;
+  run.yielded_wall = 0.186;
   EXPECT_TRUE(validity_warnings(shipped_scene(), run).empty());
-  run.monitor[2].largest_plastic_strain = 50.0;
-  expect_one(validity_warnings(shipped_scene(), run), "1793 K");
+  run.yielded_wall = 0.187;
+  const std::vector<std::string> warnings = validity_warnings(shipped_scene(), run);
+  expect_one(warnings, "187 mm");
+  EXPECT_TRUE(warnings.empty() || warnings.front().starts_with("shell-yields:"));
 }
 
 }  // namespace

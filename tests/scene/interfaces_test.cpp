@@ -18,8 +18,11 @@ const std::string bonded_cup = R"(
 condition = "bonded"
 )";
 
+/// Bodies are held as their tables say, and bonded without one.
+const std::string without_constants = "constants = \"none\"\n" + small_scene;
+
 TEST(Interfaces, AreReadAndWrittenBack) {
-  const auto file = parse_scene(small_scene + sliding_wall + bonded_cup, "shell.toml");
+  const auto file = parse_scene(without_constants + sliding_wall + bonded_cup, "shell.toml");
   ASSERT_TRUE(file) << file.error().message();
   ASSERT_EQ(file->scene.interfaces.size(), 2u);
   const Interface &cup = file->scene.interfaces[0], &wall = file->scene.interfaces[1];
@@ -35,9 +38,10 @@ TEST(Interfaces, AreReadAndWrittenBack) {
 }
 
 TEST(Interfaces, ThatCannotSlideChangeNoMechanics) {
-  const auto plain = parse_scene(small_scene, "shell.toml");
-  const auto bonded = parse_scene(small_scene + "[interface.wall]\ncondition = \"bonded\"\n", "shell.toml");
-  const auto slides = parse_scene(small_scene + sliding_wall, "shell.toml");
+  const auto plain = parse_scene(without_constants, "shell.toml");
+  const auto bonded =
+      parse_scene(without_constants + "[interface.wall]\ncondition = \"bonded\"\n", "shell.toml");
+  const auto slides = parse_scene(without_constants + sliding_wall, "shell.toml");
   ASSERT_TRUE(plain && bonded && slides);
   EXPECT_EQ(to_toml(mechanical_part(bonded->scene)), to_toml(mechanical_part(plain->scene)));
   EXPECT_NE(to_toml(mechanical_part(slides->scene)), to_toml(mechanical_part(plain->scene)));
@@ -84,7 +88,7 @@ TEST(Interfaces, DoNotSlideInTheUpdatedLagrangianForm) {
 }
 
 TEST(Interfaces, TakeOtherValuesInStudies) {
-  const auto file = parse_scene(small_scene + sliding_wall, "shell.toml");
+  const auto file = parse_scene(without_constants + sliding_wall, "shell.toml");
   ASSERT_TRUE(file);
   const auto rough = with_written_key(*file, "interface.wall.friction", "0.3", {});
   ASSERT_TRUE(rough) << rough.error().message();

@@ -1,4 +1,5 @@
 // Materials as tables of numbers: shipped ones, files, and what bodies make of their names.
+#include "launchsafe/scene/constants.hpp"
 #include "launchsafe/scene/plan.hpp"
 #include "launchsafe/scene/read_scene.hpp"
 #include "scene/scene_text.hpp"
@@ -66,6 +67,10 @@ TEST(NamedMaterial, CompBAndShellSteelAreTheDefaults) {
   clear_remarks(plain);
   Scene expected = usual.scene;
   clear_remarks(expected);
+  // The constants have a steel of their own, which a steel that bodies name does not take.
+  EXPECT_EQ(expected.steel().strength.a,
+            std::get<double>(shipped_constants().front()->values.at("steel.yield_stress")));
+  expected.steel().strength.a = 792e6;
   EXPECT_EQ(to_toml(plain), to_toml(expected));
   EXPECT_FALSE(named.given.contains("kinetics.ignition_temperature"));
   EXPECT_FALSE(named.scene.material<Charge>().title.empty());
@@ -102,7 +107,6 @@ TEST(NamedMaterial, IsNotGivenOtherKineticsByTheScene) {
   for (const auto& [key, value] : {std::pair{"activation_temperature", "27000 K"},
                                    {"frequency", "1e18 1/s"},
                                    {"heat_of_reaction", "5 MJ/kg"},
-                                   {"ignition_temperature", "600 K"},
                                    {"burnt_temperature", "800 K"}}) {
     const std::string line = fmt::format("{} = \"{}\"", key, value),
                       text = of_own + "\n[kinetics]\n" + line + "\n" + hot_mix;
@@ -118,6 +122,11 @@ TEST(NamedMaterial, IsNotGivenOtherKineticsByTheScene) {
                   .scene.charge()
                   .kinetics.activation_temperature,
               15000.0);
+  // A material that does not say when it ignites leaves it to the constants, or to the scene.
+  EXPECT_EQ(scene_of(of_own + "\n[kinetics]\nignition_temperature = \"600 K\"\n" + hot_mix)
+                .scene.charge()
+                .kinetics.ignition_temperature,
+            600.0);
   scene_of(of_comp_b + "\n[kinetics]\nfrequency = \"2.01e18 1/s\"\n");
 }
 

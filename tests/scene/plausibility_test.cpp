@@ -121,7 +121,10 @@ TEST(Plausibility, JudgesWhatSeveralKeysMakeTogether) {
       {{"load.launch_speed"}, {{"load.peak", "180 MPa"}}},  // 281 m/s: 774 at 496 MPa
       {{"load.launch_speed"}, {{"load.peak", "790 MPa"}}},  // 1 232 m/s
       {{"load.exit_calibres", "load.launch_speed", "load.travel"},
-       {{"load.muzzle_exit", "12 ms"}, {"load.width", "0.21 ms"}}},
+       {{"load.steepness", "1.37"},
+        {"load.peak_time", "11.39 ms"},
+        {"load.muzzle_exit", "12 ms"},
+        {"load.width", "0.21 ms"}}},
       {{"charge.bulk_sound_speed", "charge.poisson_ratio"}, {{"charge.jwl.r1", "16"}}},
       {{"charge.poisson_ratio"}, {{"charge.shear_moduli", "2, 2, 2, 2, 2 MPa"}}},
       {{"charge.heat_capacity"},

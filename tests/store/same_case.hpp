@@ -47,6 +47,8 @@ inline std::vector<double> numbers_of(const run::MonitorSample& sample) {
           energy.plastic,
           energy.viscous,
           energy.crack,
+          energy.charge_work,
+          energy.charge_friction,
           sample.momentum,
           sample.largest_plastic_strain,
           sample.largest_crack_radius};
@@ -96,7 +98,7 @@ inline void expect_same(const run::MechanicsResult& a, const run::MechanicsResul
   EXPECT_EQ(a.reason, b.reason);
   EXPECT_EQ(a.steps, b.steps);
   EXPECT_EQ(a.particles, b.particles);
-  EXPECT_EQ(bits({a.end_time, a.wall_time}), bits({b.end_time, b.wall_time}));
+  EXPECT_EQ(bits({a.end_time, a.wall_time, a.yielded_wall}), bits({b.end_time, b.wall_time, b.yielded_wall}));
   ASSERT_EQ(a.masses.size(), b.masses.size());
   for (std::size_t i = 0; i < a.masses.size(); ++i) {
     EXPECT_EQ(a.masses[i].material, b.masses[i].material);

@@ -90,12 +90,15 @@ inline run::MechanicsResult sample_mechanics() {
   sample.energy.viscous = 7;
   sample.energy.crack = 8;
   sample.energy.contact = 9;
+  sample.energy.charge_work = 10;
+  sample.energy.charge_friction = 21;
   sample.largest_plastic_strain = 0.01;
   sample.largest_crack_radius = 3e-5;
   sample.momentum = -1e-300;
   mechanics.monitor = {run::MonitorSample{}, sample};
   mechanics.snapshots = {sample_snapshot(0.001), sample_snapshot(0.002)};
   mechanics.limiters = {11, 12, 13};
+  mechanics.yielded_wall = 0.0875;
   mechanics.interfaces = {{.body = "wall",
                            .along_x = true,
                            .face = 0.065,

@@ -124,6 +124,19 @@ TEST(CaseAnswer, NumbersThatAreNotFiniteReadBackAsNotANumber) {
   for (const GapVerdict& row : read->verdicts) EXPECT_TRUE(std::isnan(row.heated));
 }
 
+TEST(CaseAnswer, CriticalGapsUnderOtherConstantsReadBack) {
+  CaseAnswer answer = answer_to(six_gaps());
+  answer.models = {{"hot", 3e-4}, {"late", no_ignition}, {"broken", not_a_number, "energy drift"}};
+  const auto read = stored(answer);
+  ASSERT_TRUE(read);
+  ASSERT_EQ(read->models.size(), 3u);
+  EXPECT_EQ(read->models[0].name, "hot");
+  EXPECT_EQ(read->models[0].critical_gap, 3e-4);
+  EXPECT_EQ(read->models[1].critical_gap, no_ignition);
+  EXPECT_TRUE(std::isnan(read->models[2].critical_gap));
+  EXPECT_EQ(read->models[2].failure, "energy drift");
+}
+
 TEST(CaseAnswer, TheLastOneOfAKeyCounts) {
   auto database = store::Database::in_memory("answers");
   CaseAnswer answer = answer_to(six_gaps());

@@ -62,8 +62,7 @@ void accept_all(StudyFile& study) {
 const std::string no_confirmation = "confirm = false\ngaps = \"0, 0.02 cm\"\n";
 const std::string stated =
     "numerical_uncertainty = { value = \"1 K\", because = \"for a test\" }\nfit_uncertainty = { value = \"2 "
-    "K\", because = \"for a test\" }\ninput_uncertainty = { value = \"3 K\", because = \"for a test\" "
-    "}\nmodel_form_uncertainty = { value = \"1 K\", because = \"for a test\" }\n";
+    "K\", because = \"for a test\" }\ninput_uncertainty = { value = \"3 K\", because = \"for a test\" }\n";
 
 GapVerdict first_row(const std::string& text) {
   const CriticalGapResult result =
@@ -178,26 +177,12 @@ TEST(CaseUncertainty, ARaisedLoadThatCannotBeComputedLeavesNothingSafe) {
 /// Twice the heating has twice the error: the relative errors of the constants are carried to the case.
 TEST(CaseUncertainty, TheErrorOfTheConstantsGrowsWithTheHeat) {
   const double pressure = 496.0 * std::sqrt(1.5);
-  const GapVerdict row = first_row(stated +
-                                   "accept = [{ key = \"model_form.pressure\", value = \"600 to 610 MPa\", "
-                                   "because = \"a test of the rule\" }]\n" +
-                                   vary({{"peak_pressure", fmt::format("{} MPa", pressure)}}));
+  const GapVerdict row = first_row(stated + vary({{"peak_pressure", fmt::format("{} MPa", pressure)}}));
   EXPECT_NEAR(row.uncertainty.fit, 1.5 * 2.0, 5e-3);
   EXPECT_NEAR(row.uncertainty.input, 1.5 * 1.5 * 3.0, 1e-6);  // the fourth power of the pressure
   EXPECT_NE(reason_text(row).find("extrapolated: peak pressure"), std::string::npos) << reason_text(row);
   // and never falls below what was stated
   EXPECT_EQ(first_row(stated + vary({{"peak_pressure", "250 MPa"}})).uncertainty.fit, 2.0);
-}
-
-/// What is assumed of other models is of the calibrated launch, whatever peak the study's scene has.
-TEST(CaseUncertainty, TheAssumedModelFormGrowsFromTheCalibratedPeak) {
-  const std::string rest =
-      "fit_uncertainty = { value = \"2 K\", because = \"for a test\" }\ninput_uncertainty = { value = \"3 "
-      "K\", because = \"for a test\" }\nnumerical_uncertainty = { value = \"4 K\", because = \"for a test\" "
-      "}\n";
-  const double grown = assumed_model_form * std::pow(530.0 / 496.0, 4);
-  EXPECT_NEAR(first_row(rest + vary({{"peak_pressure", "530 MPa"}})).uncertainty.model_form, grown, 1e-6);
-  EXPECT_NEAR(first_row(rest + "[set]\nload.peak = \"530 MPa\"\n").uncertainty.model_form, grown, 1e-6);
 }
 
 TEST(CaseUncertainty, OtherNumericsBringTheMeshErrorOfTheCalibration) {
@@ -300,7 +285,7 @@ TEST(CaseUncertainty, ColderConstantsOfTheSurfaceMakeNothingSafeThatTheCalibrate
 
 /// The trace holds the heat of half the sliding friction.
 TEST(CaseUncertainty, TheLocalisationMakesUpForTheSlidingFrictionOfATrace) {
-  const scene::Scene calibrated = calibration_scene();
+  const scene::Scene calibrated = shipped_calibration().scene;
   scene::Scene own = calibrated;
   own.charge().sliding_friction *= 0.5;
   const scene::Scene changed = with_calibrated(own, calibrated, {"charge.sliding_friction"});

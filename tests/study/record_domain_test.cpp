@@ -18,7 +18,7 @@ using namespace launchsafe;
 using namespace launchsafe::study;
 using keys::ActsOn, keys::Part;
 
-constexpr RecordKind kinds[] = {RecordKind::calibration, RecordKind::accuracy, RecordKind::model_form};
+constexpr RecordKind kinds[] = {RecordKind::calibration, RecordKind::accuracy};
 
 /// The shipped scene, whose inertia is stated: what a scene takes by default follows from other keys.
 const scene::SceneFile& own() {
@@ -53,8 +53,7 @@ bool may_be_inside(RecordKind kind, const scene::KeyDescription& key, const scen
   if (kind == RecordKind::accuracy)
     return is_told_by_numbers(scene) || role.part == Part::load_shape || role.acts_on == ActsOn::chemistry ||
            (role.acts_on == ActsOn::surface && role.part == Part::range);
-  if (role.part == Part::minor_setting) return true;
-  return kind == RecordKind::model_form && (role.part == Part::setting || key.name == "load.peak");
+  return role.part == Part::minor_setting;
 }
 
 double temperature(const scene::Scene& scene) {

@@ -54,7 +54,7 @@ TEST(RunCases, CasesShareARunWhereTheirMechanicsAreEqualAndNowhereElse) {
   std::size_t tried = 0, shared = 0;
   for (const auto& key : scene::scene_keys()) {
     if (key.kind != scene::KeyKind::number || key.name == "load.peak") continue;
-    const double usual = std::get<double>(key.get(calibration_scene()));
+    const double usual = std::get<double>(key.get(shipped_calibration().scene));
     const double other = key.dimension == scene::Dimension::count ? 1.0 : 0.01 * usual;
     auto study = parse_here(critical_kind + "gaps = \"0.1 mm\"\n" +
                             vary({{key.name, fmt::format("[\"{}\", \"{}\"]", scene::format_value(key, usual),

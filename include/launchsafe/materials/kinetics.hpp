@@ -10,7 +10,7 @@ struct KineticsParameters {
   double heat_of_reaction = 5.82e6;        ///< Q, J/kg [P]
   double frequency = 2.01e18;              ///< Z, 1/s [P]
   double activation_temperature = 2.17e4;  ///< E/R, K; 2.7e4 as printed
-  double ignition_temperature = 526.784;   ///< T1, K [C]
+  double ignition_temperature = 524.5223;  ///< T1, K [C]
   double burnt_temperature = 784.0;        ///< T2, K [P]: reaction degree 1, heating stops
 };
 

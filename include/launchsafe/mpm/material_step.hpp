@@ -58,8 +58,15 @@ template <class Law>
 
   const Pack volume0 = d.increment.volume_before, volume1 = d.increment.volume_after;
   const Pack work = contract(response.deviator_before + response.deviator, d.increment.deviator);
-  totals.internal += d.rest_volume * (0.25 * (volume0 + volume1) * work -
-                                      0.5 * (pressure_before + response.pressure) * (volume1 - volume0));
+  const Pack internal = d.rest_volume * (0.25 * (volume0 + volume1) * work -
+                                         0.5 * (pressure_before + response.pressure) * (volume1 - volume0));
+  totals.internal += internal;
+  if constexpr (Law::is_explosive) {
+    totals.charge_work += internal;
+    // materials::sliding_heat of the total strain, Pack by Pack.
+    totals.charge_friction += d.rest_volume * volume1 * body.law.sliding_friction *
+                              (math::max(response.pressure, Pack(0.0)) * math::equivalent_strain(strain));
+  }
   const Pack volume_before = d.rest_volume * volume0;
   totals.plastic += volume_before * response.plastic;
   totals.viscous += volume_before * response.viscous;

@@ -16,8 +16,11 @@ struct EnergyTotals {
   /// Dissipated by damping, by the PIC share and by the transfer from nodes to particles and back (FLIP).
   double damping = 0;
   double plastic = 0, viscous = 0, crack = 0;
-  double hourglass = 0;  ///< stored against hourglassing (part of `internal`)
-  double contact = 0;    ///< taken out by contact: by friction and by faces that meet
+  double hourglass = 0;    ///< stored against hourglassing (part of `internal`)
+  double contact = 0;      ///< taken out by contact: by friction and by faces that meet
+  double charge_work = 0;  ///< stress power of the charge (part of `internal`)
+  /// Heat of the charge's sliding layers with localisation 1, mu_d p V |de|; no part of the balance.
+  double charge_friction = 0;
 };
 
 /// Number of particle-steps on which a limiter acted, the particle was off the grid, or its cell was inverted

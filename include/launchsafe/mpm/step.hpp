@@ -21,6 +21,7 @@ struct StepInput {
 struct ParticleTotals {
   Pack internal{0.0}, hourglass{0.0}, plastic{0.0}, viscous{0.0}, crack{0.0}, pic_loss{0.0},
       centred_kinetic{0.0};
+  Pack charge_work{0.0}, charge_friction{0.0};  ///< `internal` of the charge, heat of its layers
   Pack tension_cutoff{0.0}, pressure_guard{0.0}, crack_at_bound{0.0};
   Pack off_grid{0.0};   ///< particles outside the grid
   Pack distorted{0.0};  ///< particles whose cell is inverted or extremely stretched
@@ -65,10 +66,10 @@ struct StepTotals {
 
 inline void ParticleTotals::add(const ParticleTotals& other) {
   using Totals = ParticleTotals;
-  for (const auto part :
-       {&Totals::internal, &Totals::hourglass, &Totals::plastic, &Totals::viscous, &Totals::crack,
-        &Totals::pic_loss, &Totals::centred_kinetic, &Totals::tension_cutoff, &Totals::pressure_guard,
-        &Totals::crack_at_bound, &Totals::off_grid, &Totals::distorted})
+  for (const auto part : {&Totals::internal, &Totals::hourglass, &Totals::plastic, &Totals::viscous,
+                          &Totals::crack, &Totals::pic_loss, &Totals::centred_kinetic, &Totals::charge_work,
+                          &Totals::charge_friction, &Totals::tension_cutoff, &Totals::pressure_guard,
+                          &Totals::crack_at_bound, &Totals::off_grid, &Totals::distorted})
     this->*part += other.*part;
 }
 

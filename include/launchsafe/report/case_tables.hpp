@@ -16,7 +16,10 @@ struct NamedRun {
   std::string stored;  ///< the file in the folder of results that holds it; empty: none
 };
 
-/// A row for every run: how it ended, energy drift, steps, particles, limiters.
+/// What the launch did to the steel, and friction heat of the charge over the net work done on it.
+const Quantities<run::MechanicsResult>& launch_effects();
+
+/// A row for every run: how it ended, its `launch_effects`, energy drift, steps, particles, limiters.
 Table run_table(const std::vector<NamedRun>& runs);
 
 /// A row a gap that burnt in a run with two-way coupling: end state, balance of energy, cost.

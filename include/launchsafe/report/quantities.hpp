@@ -68,7 +68,7 @@ inline const Column taken_over_supplied{
 
 // Of published results.
 inline const Column used_for{"used_for", "used for", text(),
-                             "Whether the published number was fitted, chosen by, or held out."};
+                             "Whether the constants were fitted to the published number, or it checks them."};
 
 // Of critical gaps.
 inline const Column critical_gap{

@@ -86,8 +86,8 @@ std::vector<std::string> mesh_notes(const study::StudyFile& study);
 /// What temperatures are read over.
 std::string station_note(const study::StudyFile& study);
 
-/// What the published highest temperature of a gap was used for.
-std::string used_for(const study::Reference& published);
+/// Whether constants were fitted to a published number of a gap (m); null: no constants.
+study::Use use_of(const std::shared_ptr<const scene::Constants>& constants, double gap, double published);
 
 /// The value in m, NaN for anything that is none: a bound never passes for a value.
 double value_of(const study::CriticalGap& gap);
@@ -95,6 +95,8 @@ double value_of(const study::CriticalGap& gap);
 std::optional<Measured> measured_gap(const study::CriticalGap& gap);
 /// "0.039 ± 0.010 cm": the one way in which it is quoted; as it reads where its bounds are not known.
 std::string measured_text(const study::CriticalGap& gap);
+/// "0.0395 cm", "ignites without a gap", "no ignition", "not known".
+std::string gap_text(study::GapOrBound gap);
 /// What makes critical gaps uncertain, cause by cause.
 Table gap_share_table(const std::vector<NamedGap>& cases);
 /// "0.0395 cm", "> 0.1 cm", "ignites without a gap", "indeterminate".

@@ -1,6 +1,7 @@
 // What one case came to: the mechanics once, and a skin history for every gap.
 #pragma once
 
+#include "launchsafe/scene/constants.hpp"
 #include "launchsafe/surface/skin.hpp"
 
 #include <map>
@@ -9,10 +10,7 @@
 
 namespace launchsafe::run {
 
-/// Raised by hand whenever the same scene gives other numbers than before. It is part of what determines a
-/// stored case, so that results of different models are never mixed. The test ModelVersion.* fails when
-/// numbers change and this did not.
-inline constexpr int model_version = 7;
+using scene::model_version;
 
 /// A member of a result as case files have it, described once.
 template <class Member>
@@ -44,6 +42,7 @@ std::string to_string(RunStatus status);
 struct EnergyBalance {
   double kinetic = 0, internal = 0, external = 0, body_force = 0, damping = 0, contact = 0;
   double plastic = 0, viscous = 0, crack = 0, hourglass = 0;
+  double charge_work = 0, charge_friction = 0;
   double scale() const;  ///< what drift is measured against, > 0
   double drift() const;  ///< (kinetic + internal + damping + contact - external - body_force)/scale
 };
@@ -64,6 +63,10 @@ inline constexpr std::array energy_terms{
     Stored{"crack_dissipation", &EnergyBalance::crack, "J", "dissipated by crack growth"},
     Stored{"hourglass", &EnergyBalance::hourglass, "J",
            "stored against hourglassing, part of the internal energy"},
+    Stored{"charge_work", &EnergyBalance::charge_work, "J",
+           "integrated stress power of the charge, part of the internal energy"},
+    Stored{"charge_friction", &EnergyBalance::charge_friction, "J",
+           "friction heat of the charge with localisation 1, of its total strain; no part of the balance"},
 };
 
 /// Elastic energy (J) that the bodies would hold under a hundredth of the load's peak, or of an atmosphere
@@ -202,6 +205,9 @@ inline constexpr std::tuple stored_interface{
     Stored{"overlap", &InterfaceResult::overlap, "m", "by which the faces passed into each other"},
 };
 
+/// Plastic strain of steel beyond which a wall counts as yielded: that of the proof stress Rp0.2.
+inline constexpr double yield_of_wall = 0.002;
+
 struct MechanicsResult {
   RunStatus status = RunStatus::completed;
   std::string reason;   ///< when and where, if not completed
@@ -220,6 +226,14 @@ struct MechanicsResult {
   std::vector<Snapshot> snapshots;
   LimiterCounts limiters;
   std::vector<InterfaceResult> interfaces;  ///< none for bonded bodies
+  double yielded_wall = 0;  ///< m, axial length of the steel beside the charge beyond `yield_of_wall`
+  double largest_plastic_strain() const {  ///< of the steel at the end; NaN without a monitor history
+    return monitor.empty() ? math::not_a_number : monitor.back().largest_plastic_strain;
+  }
+  double friction_over_work() const {  ///< friction heat of the charge over the net work done on it, or NaN
+    const EnergyBalance end = monitor.empty() ? EnergyBalance{} : monitor.back().energy;
+    return end.charge_work > 0.0 ? end.charge_friction / end.charge_work : math::not_a_number;
+  }
 };
 
 /// 0 for a material without particles.

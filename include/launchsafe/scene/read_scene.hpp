@@ -59,8 +59,6 @@ std::vector<InterfaceText> describe_interfaces(const Scene& scene);
 /// not those of the calibration. Which they are only a study knows (study/record_domain.hpp).
 inline constexpr const char *foreign_shell = "calibration.shell", *foreign_material = "calibration.material",
                             *foreign_interfaces = "calibration.interfaces";
-/// Likewise a peak pressure beyond those at which other models of the launch were compared.
-inline constexpr const char* pressure_of_models = "model_form.pressure";
 
 /// A value on which no verdict but UNSAFE rests unless the user accepts it: it is not plausible, or not the
 /// calibrated one.
@@ -155,15 +153,18 @@ struct DocumentedKey {
 /// All keys of a scene file, those of its tables as "body.x", "interface.NAME.friction",
 /// "observation_point.x" and "accept.key".
 std::vector<DocumentedKey> describe_keys();
+struct Constants;
+
 /// A valid scene, and what in it was said rather than assumed.
 struct SceneFile {
   Scene scene;
-  std::string file;                         ///< as named by the user
-  std::filesystem::path folder;             ///< what relative paths in it start from
-  std::map<std::string, Given> given;       ///< scene keys that the user set, or a material that he named
-  std::vector<NamedMaterial> materials;     ///< of the scene and of files, besides the shipped ones
-  std::vector<std::string> body_materials;  ///< of each body, as the user named it
-  std::map<std::string, Place> places;      ///< of "body.<name>.x", "observation_point.<name>.r", ...
+  std::string file;                            ///< as named by the user
+  std::filesystem::path folder;                ///< what relative paths in it start from
+  std::map<std::string, Given> given;          ///< scene keys that the user set, or a material that he named
+  std::vector<NamedMaterial> materials;        ///< of the scene and of files, besides the shipped ones
+  std::vector<std::string> body_materials;     ///< of each body, as the user named it
+  std::map<std::string, Place> places;         ///< of "body.<name>.x", "observation_point.<name>.r", ...
+  std::shared_ptr<const Constants> constants;  ///< of every key that the file does not give; null: none
 };
 
 /// Where activation temperature, frequency factor and heat of the charge come from, as people read it: the

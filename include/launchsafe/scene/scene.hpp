@@ -51,9 +51,9 @@ struct Load {
   std::optional<double> duration;      ///< s, where not all of the launch is simulated: see `end_time`
   double peak = 496e6;                 ///< Pa
   double base = 101325.0;              ///< p0, Pa
-  double peak_time = 11.3923e-3;       ///< t_m, s [C]
-  double width = 2.92580e-3;           ///< w, s [C], of the bell alone: the pressure is 1/e of its peak there
-  double steepness = 1.36939;          ///< a [C], of the bell alone
+  double peak_time = 10.98965e-3;      ///< t_m, s [C]
+  double width = 2.890024e-3;          ///< w, s [C], of the bell alone: the pressure is 1/e of its peak there
+  double steepness = 1.518591;         ///< a [C], of the bell alone
   double exponent = 13.578;            ///< n [A], of the power-exponential alone
   std::string curve_file;              ///< as the user wrote it
   std::vector<double> curve_time;      ///< s, increasing; empty for the analytic shape
@@ -62,7 +62,7 @@ struct Load {
   double smoothing = 0.0;              ///< s; window over which a measured curve is averaged, 0 = as measured
   std::optional<double> muzzle_exit;   ///< s, when the shot leaves the barrel
   std::optional<double> muzzle_travel;  ///< m, after which it does; beside `muzzle_exit` only a check of it
-  double exit_decay = 5e-4;             ///< s, time constant of the pressure after the exit
+  double exit_decay = 1e-4;             ///< s, time constant of the pressure after the exit
   /// m/s at the exit, or at the end where there is none, as a range table has it: a check of what is typed,
   /// and no part of the launch.
   std::optional<double> expected_velocity;
@@ -93,12 +93,12 @@ using materials::Steel;
 struct Surface {
   std::vector<double> gaps{0.0};  ///< m
   materials::AirParameters air;
-  double skin_thickness = 1e-4;       ///< h_ex, m
-  double exchange_time = 2.85100e-4;  ///< tau_ex, s [C]
+  double skin_thickness = 1e-4;        ///< h_ex, m
+  double exchange_time = 2.809453e-4;  ///< tau_ex, s [C]
   /// Stations tile the charge's bottom by about this width and this depth, m.
   double station_width = 5e-3, station_depth = 5e-3;
   FrictionClosure friction = FrictionClosure::total_strain_rate;
-  double localisation = 1346.94;  ///< [C]
+  double localisation = 1276.794;  ///< [C]
 };
 
 struct Numerics {
@@ -135,6 +135,7 @@ struct Interface {
   /// Name of the other body; empty: every charge that `body` touches. For checks of contact against closed
   /// forms, which have no charge; no file says it.
   std::string against = {};
+  bool from_constants = false;  ///< a constants file holds the body so, and the scene says nothing of it
 };
 /// Largest coefficient of friction; beyond it faces stick for any load.
 inline constexpr double largest_friction = 10.0;

@@ -39,18 +39,9 @@ struct Rises {
 /// study without verdicts.
 double fit_share(const Study& study, const RecordDistance& distance, const Rises& rises);
 
-/// What the study states of the model form, or assumes where its record does not speak of a case, K.
-/// Nothing where the record does: it gives a shift of the gap (`recorded`).
-std::optional<double> stated_model_form_share(const Study& study, const StudyCase& input,
-                                              const ModelFormShift& recorded);
-/// Shares of the bounds of a case that are assumed, as neither the study nor a record speaks of it.
-struct AssumedShares {
-  bool computation = false, model_form = false;
-  bool any() const { return computation || model_form; }
-  std::string text() const;  ///< "computation, model form"; empty for none
-};
-/// Those of a case with a critical gap (m).
-AssumedShares assumed_shares(const Study& study, const StudyCase& input, double critical_gap);
+/// Whether the share of the computation in the bounds of a critical gap (m) is assumed, as neither the study
+/// nor a record speaks of the case.
+bool assumes_computation(const StudyCase& input, double critical_gap);
 
 /// K, as a study states it for its own scene; it grows with the pressure as the heat does.
 double stated_input_share(const Study& study, const StudyCase& input);
@@ -110,6 +101,11 @@ double largest_gap(const Study& study);
 /// Puts the study's published rows beside those of a case under the study's own conditions.
 void attach_references(const Study& study, const StudyCase& input, std::vector<GapVerdict>& rows);
 
+/// The critical gaps of a case under the other constants of its study, from its finished runs. A launch that
+/// did not complete, or has validity warnings, has none.
+std::vector<ModelGap> gaps_of_models(const Study& study, const StudyCase& input,
+                                     const std::vector<FinishedRun>& runs);
+
 /// A case on its mechanics: the critical gap, by the hottest station and indeterminate for a failed run; then
 /// the gaps of the study on the trace, skin histories and the rows without verdict.
 void evaluate(const Study& study, CaseOutcome& outcome);
@@ -119,10 +115,6 @@ CaseOutcome without_result(const Study& study, const StudyCase& input, RunOutcom
 
 /// What the confirmations say about the critical gap: a disagreement makes it indeterminate.
 void apply_confirmations(const Study& study, CaseOutcome& outcome);
-
-/// Whether a row that the constants were calibrated on is missed: the constants belong to other settings, and
-/// a stated uncertainty does not cover that.
-bool misses_calibrated_rows(const CaseOutcome& outcome);
 
 /// Uncertainties, verdicts and the fit, once all runs are done.
 void conclude(const Study& study, CaseOutcome& outcome);
@@ -160,6 +152,8 @@ CaseAnswer answer_of(const CaseOutcome& outcome);
 /// states no uncertainty of the inputs.
 CaseAnswer answer_of(const Study& study, const StudyCase& input, const run::MechanicsResult& mechanics,
                      const std::optional<run::MechanicsResult>& raised = std::nullopt);
+/// A case on its finished runs, not concluded.
+CaseOutcome outcome_from(const Study& study, const StudyCase& input, const std::vector<FinishedRun>& runs);
 /// The answer of a case without a result.
 CaseAnswer failed_answer(const Study& study, const StudyCase& input, RunOutcome outcome, std::string failure);
 

@@ -1,5 +1,5 @@
-// How one scene differs from another, and what of that a record of the other one does not speak of; where the
-// constants that scenes start from were calibrated; and what the choice of the model does.
+// How one scene differs from another, and what of that a record of the other one does not speak of; and where
+// the constants that scenes start from were calibrated.
 #pragma once
 
 #include "launchsafe/scene/read_scene.hpp"
@@ -22,7 +22,7 @@ struct Difference {
 /// up to the round-off of units. Names of bodies and materials are the user's and make no difference.
 std::vector<Difference> differences(const scene::Scene& scene, const scene::Scene& recorded);
 
-enum class RecordKind { calibration, accuracy, model_form };
+enum class RecordKind { calibration, accuracy };
 
 /// How far a scene lies outside of a record.
 struct RecordDistance {
@@ -57,60 +57,7 @@ struct Calibration {
   CalibrationEvidence evidence;
 };
 
-/// The launch that the constants of scene::Scene were calibrated on: the 155 mm shell of the paper.
-scene::Scene calibration_scene();
-/// That launch with its evidence: what holds where a study names no record of another calibration.
+/// The launch of the constants that ship as the default: the 155 mm shell of the paper.
 Calibration shipped_calibration();
-
-// --- how the critical gap changes with the choice of the model, each calibrated on the same rows, and which
-// part of that counts as uncertainty of a verdict ---
-
-/// A model beside the default one.
-struct ModelAlternative {
-  std::string name, title;
-  std::string not_counted;               ///< why it enters no share, a clause; empty where it counts
-  std::vector<GapOrBound> critical_gap;  ///< m, for every pressure of the record
-};
-
-/// The default model and its alternatives.
-struct ModelFormRecord {
-  scene::Scene scene;                    ///< the default's, with its constants
-  std::vector<double> peak_pressures;    ///< Pa, increasing
-  std::vector<GapOrBound> critical_gap;  ///< m, of the default
-  std::vector<ModelAlternative> alternatives;
-};
-
-std::string to_json_text(const ModelFormRecord& record);
-/// Refuses a record of another model version. `file` is named in errors.
-scene::Expected<ModelFormRecord> parse_model_form(const std::string& text, const std::string& file);
-
-/// The peak pressures (Pa) from the lowest to the highest at which models were compared: those of a record,
-/// or of the one that ships (studies/models).
-scene::Limits compared_pressures(const std::optional<ModelFormRecord>& record);
-
-/// The recorded pressures around a peak: their indices, equal where it is one of them.
-struct PressureInterval {
-  std::size_t below = 0, above = 0;
-};
-
-/// How far the alternatives that count move the critical gap from the default's.
-struct ModelFormShift {
-  double gap = 0;      ///< m, >= 0, by which the smallest one is below: towards ignition; NaN where not known
-  double later = 0;    ///< m, >= 0, by which the largest one is above; infinite where one never ignites
-  std::string reason;  ///< why it is not known, a clause
-  /// Around the launch's peak; nothing where the record is of another launch.
-  std::optional<PressureInterval> around = {};
-};
-/// Of a launch of the record's scene at a peak pressure among the recorded ones; between two of them, which
-/// must be within 15 % of each other, the larger shift of both. Not known where the scene differs in anything
-/// else than its gaps, numerics and output, where no alternative counts, and where the default has a bound
-/// instead of a critical gap.
-ModelFormShift model_form_shift(const ModelFormRecord& record, const scene::Scene& scene);
-
-/// The titles of alternatives that could change what a gap (m) does, between the recorded pressures around
-/// its launch: under which one that ignites would not, or might not; or, apart from those that count, one
-/// that does not ignite might.
-std::vector<std::string> models_that_differ(const ModelFormRecord& record, const PressureInterval& around,
-                                            double gap, bool ignites);
 
 }  // namespace launchsafe::study

@@ -85,7 +85,8 @@ store::CaseIdentity identity_of(const CaseRun& run);
 /// A run of a study that waits: it is made when it is its turn.
 struct PlannedRun {
   std::function<CaseRun()> make;
-  double cost = 1;  ///< predicted particle updates, > 0: of the run, or of one like it
+  double cost = 1;         ///< predicted particle updates, > 0: of the run, or of one like it
+  std::string model = {};  ///< other constants of the study that it is a launch under; empty: the case's own
 };
 /// Of a run that is there already.
 PlannedRun planned_run(CaseRun run);
@@ -97,7 +98,8 @@ double memory_of(const CaseRun& run);
 /// Runs that are judged together, and the cases of the study that are judged on them.
 struct CaseRuns {
   std::vector<std::size_t> members;  ///< of StudyFile::cases; those that differ in thermal keys alone share
-  /// The mechanics; then, where the study asks for it, under a raised load, or through the ignition of gaps.
+  /// The mechanics; then, where the study asks for it, through the ignition of gaps, under a raised load, and
+  /// under each of its other constants.
   std::vector<PlannedRun> runs;
   int shard = 1;
 };
@@ -115,12 +117,14 @@ struct FinishedRun {
   run::CaseResult result;  ///< no gaps for the mechanics alone; empty unless the run began or was stored
   std::string hash;        ///< of its identity, likewise
   bool expected = false;   ///< that it is no basis for a verdict is what the study asks for
+  std::string model = {};  ///< as PlannedRun has it
   /// Whether there is a result, if perhaps of a run that broke off or ended by itself before its time.
   bool has_result() const;
 };
 
 /// The run for want of which a case cannot be judged; nullptr where it can. A case whose first run broke off
-/// is judged on that run alone.
+/// is judged on that run alone, and one whose launch under other constants failed without what that would
+/// say.
 const FinishedRun* run_without_result(const std::vector<FinishedRun>& runs);
 
 /// Whether the uncertainty of the inputs is found by propagating the assumed spread, which takes a run with a

@@ -70,6 +70,16 @@ auto read_named_record(StudyFile& study, const std::filesystem::path& folder, co
   return parse(text, (folder / name).string()).or_throw();
 }
 
+/// Reads the constants files that the study names as other models. Refused are: none there, one without
+/// constants, and two of one name.
+void read_models(StudyFile& study, const std::filesystem::path& folder);
+/// Refuses a model under which a case of the study is no valid scene.
+void check_models(const StudyFile& study);
+/// Name of a model in tables: that of shipped constants, or of their file without its ending.
+std::string name_of_model(const scene::Constants& model);
+/// The scene of a case under other constants; what its scene and the study state stays.
+scene::Scene scene_of_model(const StudyCase& input, const std::shared_ptr<const scene::Constants>& model);
+
 /// Gives scene keys of the study's scene other values, which `study_key` of the study asks for.
 void set_keys(StudyFile& study, const std::map<std::string, scene::Value>& values,
               const std::string& study_key);

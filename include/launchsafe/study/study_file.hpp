@@ -38,7 +38,7 @@ std::vector<std::size_t> places_by(std::size_t count, Number number) {
 inline constexpr double assumed_numerical_uncertainty = 60.0;
 /// One mechanical run of a study: a complete, valid scene.
 struct StudyCase {
-  std::string label;           ///< "496 MPa, 30 µm, 1 mm", or "2.5 mm" for the mesh of a calibration
+  std::string label;           ///< "496 MPa, 30 µm, 1 mm"
   double peak_pressure = 0;    ///< Pa
   bool own_conditions = true;  ///< the load and defect of the study's scene, which the references belong to
   std::vector<double> coordinates;                               ///< SI, of Study::axes
@@ -140,9 +140,8 @@ struct Axis {
   std::string values_key = {};  ///< what in the study file bounds its values; empty: `study_key`
 };
 
-/// What a published number was used for: nothing; it was seen when a form of the model was picked; numbers
-/// were fitted to it.
-enum class Use { held_out, chosen_by, fitted };
+/// Whether constants were fitted to a published number, or it checks them.
+enum class Use { check, fitted };
 std::string to_string(Use use);
 
 /// A row of published results to compare with; what it does not say is NaN or empty.
@@ -158,8 +157,6 @@ struct Reference {
   double ignition_time = not_a_number;  ///< s; NaN for a gap that did not ignite
   double rise_begins = not_a_number;    ///< s, from when on the temperature rises fast
   double rise_ends = not_a_number;      ///< s, until when
-  bool calibrated = false;  ///< constants, and the load where one is fitted, are fitted to the row
-  bool selection = false;   ///< what is not fitted of the row was seen when a form of the model was picked
   bool ignited() const { return ignition_time == ignition_time; }
 };
 
@@ -194,14 +191,14 @@ struct Study {
   double largest_gap = 1e-3;  ///< m, where the search for the critical gap ends
   double numerical_uncertainty = not_a_number;  ///< K, of T max, from a mesh study; NaN: not stated
 
-  // kinds that may use the record of a calibration
-  std::string calibration_record;                   ///< path from the study file's folder; empty: none
-  Calibration calibration = shipped_calibration();  ///< where the constants of the scene are known
+  /// Name or path (from the study file's folder) of a constants file; empty: that of the scene.
+  std::string constants;
+  Calibration calibration = shipped_calibration();  ///< the launch that the scene's constants were fitted on
 
   // kinds that give verdicts
-  std::string model_form_record;                 ///< path from the study file's folder; empty: none
-  std::optional<ModelFormRecord> model_form;     ///< what it says
-  double model_form_uncertainty = not_a_number;  ///< K, of T max, instead of a record; NaN: not stated
+  std::string model_names;  ///< of constants files, "a, b": names, or paths from the study file's folder
+  /// Constants from these files: every case is launched under each of them too, to compare critical gaps.
+  std::vector<std::shared_ptr<const scene::Constants>> models;
 
   // kinds that may use the record of an accuracy study
   std::string accuracy;  ///< paths of records from the study file's folder, "a, b"; empty: none
@@ -226,10 +223,6 @@ inline constexpr double assumed_uncertainty_off_grid = 100.0;
 /// the 155 mm shell with the power-exponential, fitted to the same rows as the bell (its temperature of 0.04
 /// cm at 10 ms).
 inline constexpr double assumed_other_load_shape = 12.81;
-
-/// K, where no record of other models speaks of a launch: more than any alternative that counts moves T max
-/// of the 155 mm shell, 0.0173 cm at 550 MPa, some 45 K (studies/models).
-inline constexpr double assumed_model_form = 50.0;
 
 /// Largest number of cases of a study.
 inline constexpr std::size_t largest_case_count = 1'000'000;

@@ -26,9 +26,6 @@ struct CaseStatements {
   /// m, up to which a gap lies within it.
   double calibrated_gap = math::infinity;
 
-  /// Of the study's record of other models; not known where there is none.
-  ModelFormShift model_form{math::not_a_number, math::not_a_number, {}};
-
   /// What is implausible, and what is foreign to the calibration.
   std::vector<scene::Implausible> to_be_accepted() const;
   /// Whether something is not plausible, or foreign to the calibration, and nobody accepts it.
@@ -57,7 +54,7 @@ struct Uncertainty {
   double fit = 0;          ///< of the calibrated constants, carried to this case
   double input = 0;        ///< of what is not known of the launch: its random causes together
   double load_curve = 0;   ///< of a measured curve: see load_curve_share
-  double model_form = 0;   ///< by which other models of the launch move towards ignition
+  double model_form = 0;   ///< by which launches under other constants move towards ignition
   /// Of a base on which the charge slides: all heat of friction, and the gap that opens there.
   double sliding = 0;
   /// Of the computation itself: the sum, since the parts are bounds and have common causes.
@@ -79,6 +76,8 @@ struct CaseEvidence {
   /// K, of T max without a gap by friction; infinite where a study does not ask whether it was launched.
   double friction_rise = math::infinity;
   CaseStatements input = {};
+  /// Launches under other constants that failed, a clause; empty where none did.
+  std::string failed_models = {};
   bool completed() const { return failure.empty(); }
 };
 
@@ -187,7 +186,6 @@ struct GapVerdict {
   Uncertainty uncertainty;
   std::optional<NamedIgnition> ignition;        ///< at an observation point
   std::shared_ptr<const CaseEvidence> of_case;  ///< without it nothing is safe
-  std::vector<std::string> models;              ///< titles of other models that could change the verdict
   Judgement judgement;
   std::optional<Reference> reference;
   /// K, margin with the constants of the surface as calibrated; infinite where they are, minus infinite where
@@ -228,8 +226,8 @@ std::string unaccepted_text(const CaseStatements& input);
 /// What is not plausible, or foreign, and why it is meant.
 std::string accepted_text(const CaseStatements& input);
 std::string limiters_text(const GapVerdict& row);
-/// Models that could change the verdict.
-std::string models_text(const GapVerdict& row);
+/// Launches under other constants that failed, for want of which the critical gap has no bounds.
+std::string failed_models_text(const GapVerdict& row);
 /// What lies outside the calibration's domain.
 std::string extrapolated_text(const GapVerdict& row);
 
@@ -261,6 +259,16 @@ struct RunSummary {
   run::LimiterCounts limiters;
 };
 
+/// Launch of a case under other constants.
+struct ModelGap {
+  std::string name;                              ///< of the constants
+  GapOrBound critical_gap = math::not_a_number;  ///< m; the lower end of its bracket; NaN for a failed launch
+  std::string failure = {};                      ///< why it is no basis; empty for a sound launch
+};
+
+/// Which of these failed and why, a clause; empty where none did.
+std::string failed_models(const std::vector<ModelGap>& models);
+
 /// One case with its gaps. A case that failed has indeterminate verdicts, no numbers, and the reason.
 struct CaseAnswer {
   RunOutcome outcome = RunOutcome::ran;  ///< of the run it rests on, or that it lacks; not stored
@@ -270,6 +278,7 @@ struct CaseAnswer {
   std::vector<std::string> validity_warnings;  ///< as CaseEvidence has them
   double friction_rise = not_a_number;         ///< K, likewise
   CriticalGap critical;                        ///< at the observation points
+  std::vector<ModelGap> models;                ///< in the order of Study::models; none of a case that failed
   std::vector<GapVerdict> verdicts;  ///< in the order of the study's gaps; of one that failed not heated
   bool completed() const { return failure.empty(); }
 };
