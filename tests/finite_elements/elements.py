@@ -7,7 +7,7 @@ import subprocess
 import sys
 import tempfile
 
-from cases import BOX, DENSITY, SHEAR, differences, measures
+from cases import BOX, DENSITY, SHEAR, differences, measures, slab_means
 
 
 def graded(begin, end, first, last):
@@ -46,10 +46,12 @@ def pressure_at(material, volume):
     return hugoniot / (1 - 1.67 / 2 * (1 - volume))
 
 
-def hardening():
-    """Johnson-Cook at low rates, adiabatic: stress and plastic strain."""
+def hardening(yield_stress, flow_time):
+    """Johnson-Cook, adiabatic: stress and plastic strain. At low rates, or at that of a strain reached in a time, ms."""
     def flow(strain, temperature):
-        return (792 + 510 * strain**0.26) * (1 - ((temperature - 298) / (1793 - 298))**1.03)
+        rate = max(1.0, 1e3 * strain / flow_time) if flow_time else 1.0
+        return ((yield_stress + 510 * strain**0.26) * (1 + 0.014 * math.log(rate))
+                * (1 - ((temperature - 298) / (1793 - 298))**1.03))
     temperature, strain = 300.0, 1e-6
     points = [(flow(0.0, temperature), 0.0)]
     while strain < 1:
@@ -61,7 +63,7 @@ def hardening():
     return points
 
 
-def law_of(material, yields, pressure):
+def law_of(case, material, pressure):
     """A law with the secant moduli from rest to a pressure; the charge's bulk modulus rises by 8 % under 141 MPa. With J
     the relative volume, p = -K ln J where it yields, in logarithmic strains; else p = K (1 - J) with the tangent shear
     modulus G/J, neo-Hookean: CalculiX's linear law for large strains would add twice the pressure times the strain."""
@@ -71,11 +73,12 @@ def law_of(material, yields, pressure):
         volume = (low + high) / 2
         low, high = (volume, high) if pressure_at(material, volume) > pressure else (low, volume)
     shear = SHEAR[material] * volume
-    if not yields:
+    if not case.yield_stress or material != "steel":
         return f"*HYPERELASTIC,NEO HOOKE\n{shear / 2:.10g},{2 / (pressure / (1 - volume)):.10g}\n"
     bulk = -pressure / math.log(volume)
     young, poisson = 9 * bulk * shear / (3 * bulk + shear), (3 * bulk - 2 * shear) / (6 * bulk + 2 * shear)
-    return f"*ELASTIC\n{young:.10g},{poisson:.10g}\n*PLASTIC\n" + "".join(f"{s:.10g},{e:.10g}\n" for s, e in hardening())
+    return (f"*ELASTIC\n{young:.10g},{poisson:.10g}\n*PLASTIC\n"
+            + "".join(f"{s:.10g},{e:.10g}\n" for s, e in hardening(case.yield_stress, case.flow_time)))
 
 
 class Model:
@@ -123,7 +126,7 @@ class Model:
             lines.append(f"*ELEMENT,TYPE=CAX8R,ELSET=PART{k}")
             lines += [",".join(map(str, [self.number[e], *(node(e, *place) for place in places)])) for e in elements]
             laws.append(f"*MATERIAL,NAME=MATERIAL{k}\n"
-                        f"{law_of(material, self.case.plastic and material == 'steel', pressure)}"
+                        f"{law_of(self.case, material, pressure)}"
                         f"*DENSITY\n{DENSITY[material]:.10g}\n*SOLID SECTION,ELSET=PART{k},MATERIAL=MATERIAL{k}")
         def middle(edges, k):
             return (edges[k // 2] + edges[(k + 1) // 2]) / 2
@@ -138,8 +141,9 @@ class Model:
     def contacts(self):
         """Face-to-face penalty contact: pressure for an overlap of 1e9 MPa/m, and shear over the elastic slip of faces
         that stick, in proportion to a friction up to 0.1, so that the slip at the onset of sliding is the same. From
-        four times this on at a friction of 0.1 points stick and slide in turn, and there is no equilibrium."""
-        lines = []
+        four times this on at a friction of 0.1, and from this on where the wall yields, points stick and slide in turn,
+        and there is no equilibrium."""
+        shear, lines = 5e7 if self.case.yield_stress else 2e8, []
         for body, friction in self.case.sliding.items():
             own, other = [], []
             for i, j in (element for element, name in self.body.items() if name == "charge"):
@@ -152,7 +156,7 @@ class Model:
                       f"*SURFACE INTERACTION,NAME=FACES{body}\n*SURFACE BEHAVIOR,PRESSURE-OVERCLOSURE=LINEAR\n"
                       f"{1e9 * self.softness:.10g}"]
             if friction:
-                lines.append(f"*FRICTION\n{friction},{min(friction, 0.1) * 2e8 * self.softness:.10g}")
+                lines.append(f"*FRICTION\n{friction},{min(friction, 0.1) * shear * self.softness:.10g}")
         return lines
 
     def steps(self):
@@ -162,7 +166,7 @@ class Model:
         case = self.case
         mass = sum(DENSITY[m] * (x1 - x0) * (r1**2 - r0**2) / 2 for m, x0, x1, r0, r1 in case.bodies.values())
         acceleration = case.pressure * self.r[-1]**2 / 2 / mass
-        shares = [(0.5, 0.25), (1.0, 2 * self.increment)] if case.plastic else [(1.0, 1.0 if case.sliding else 0.2)]
+        shares = [(0.5, 0.25), (1.0, 2 * self.increment)] if case.yield_stress else [(1.0, 1.0 if case.sliding else 0.2)]
         for share, increment in shares:
             yield f"*STEP,NLGEOM,INC=1000\n*STATIC\n{increment},1.,1e-5,{increment}"
             if case.sliding:
@@ -170,17 +174,19 @@ class Model:
             yield f"*DLOAD\nELEMENTS,GRAV,{share * acceleration:.12g},0.,1.,0."
             for j in range(len(self.r) - 1):
                 yield f"{self.number[len(self.x) - 2, j]},P3,{share * case.pressure:.12g}"
-            yield "*EL PRINT,ELSET=ELEMENTS,FREQUENCY=1000\nS\n*END STEP"
+            yield f"*EL PRINT,ELSET=ELEMENTS,FREQUENCY=1000\nS{',PEEQ' if case.yield_stress else ''}\n*END STEP"
 
     def stresses(self):
-        """Runs ccx: (rr, xx, tt, rx), tension positive, at the points of every element."""
+        """Runs ccx: (rr, xx, tt, rx), tension positive, at the points of every element. Of the wall's, `wall` has the
+        plastic strains."""
         with tempfile.TemporaryDirectory() as folder:
             job = pathlib.Path(folder) / "job"
             job.with_suffix(".inp").write_text(self.deck())
             run = subprocess.run(["ccx", "-i", "job"], cwd=folder, capture_output=True, text=True)
             if "Job finished" not in run.stdout:  # the exit code is 0 after most failures too
                 sys.exit(f"{self.case.name}: ccx did not finish:\n{run.stdout[-2000:]}")
-            table = job.with_suffix(".dat").read_text().split("stresses (elem, integ.pnt.")[-1].split("\n\n")[1]
+            blocks = job.with_suffix(".dat").read_text().split("stresses (elem, integ.pnt.")[-1].split("\n\n")
+            table, plastic_strains = blocks[1], blocks[3] if self.case.yield_stress else ""
         # An axisymmetric element is a wedge of 2 degrees. Points 1 to 4 lie at the Gauss place of its lower half, 5 to 8
         # mirror them: stresses are turned about the axis to the radial direction of the point.
         angle = math.atan(math.tan(math.radians(1)) / math.sqrt(3))
@@ -192,11 +198,17 @@ class Model:
                 rr, xx, tt, rx, rt, _ = map(float, values)
                 stresses.setdefault(elements[int(element) - 1], []).append(
                     (c * c * rr + s * s * tt - 2 * s * c * rt, xx, s * s * rr + c * c * tt + 2 * s * c * rt, rx / c))
+        self.wall = []
+        for line in plastic_strains.splitlines():
+            element, _, strain = line.split()
+            i, j = elements[int(element) - 1]
+            if self.body[i, j] == "wall":
+                self.wall.append((self.x[i], self.x[i + 1], self.r[j + 1]**2 - self.r[j]**2, float(strain)))
         assert len(stresses) == len(elements) and all(len(each) == 4 for each in stresses.values()), "stresses of ccx"
         return stresses
 
     def means(self):
-        """Pressure and von Mises stress of the stations."""
+        """Measures of the stations."""
         boxes = [[] for _ in self.case.stations]
         for element, stresses in self.stresses().items():
             for (x, r, weight), stress in zip(self.points(*element), stresses):
@@ -225,11 +237,15 @@ def pressures_of(case):
 
 
 def elements(case, pressures, finer):
-    """Means of the stations, and their largest change from contact springs of half the stiffness; with contact they are
-    extrapolated to rigid faces."""
-    stiff = Model(case, pressures, finer).means()
-    if not case.sliding:
-        return stiff, 0.0
-    soft = Model(case, pressures, finer, softness=0.5).means()
-    rigid = [[2 * a - b for a, b in zip(*pair)] for pair in zip(stiff, soft)]
-    return rigid, max(abs(change) for pair in differences(soft, stiff) for change in pair)
+    """Means of the stations, their largest change from contact springs of half the stiffness, and plastic strains of the
+    wall's slabs. With contact means are extrapolated to rigid faces; not so where the wall yields too, where fine elements
+    take long: there the springs' change comes from coarse ones alone."""
+    increment = 0.05 if case.launch else 0.02
+    model = Model(case, pressures, finer, increment)
+    stiff = model.means()
+    wall = slab_means(model.wall, case.bottom) if case.launch else []
+    if not case.sliding or case.launch and finer > 1:
+        return stiff, 0.0, wall
+    soft = Model(case, pressures, finer, increment, softness=0.5).means()
+    springs = max(abs(change) for pair in differences(soft, stiff) for change in pair[:2])
+    return stiff if case.launch else [[2 * a - b for a, b in zip(*pair)] for pair in zip(stiff, soft)], springs, wall
