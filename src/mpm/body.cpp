@@ -83,8 +83,7 @@ void record(ParticleFields& particles, std::size_t slot) {
   const std::size_t slots = particles.mass.size();
   if (particles.recorded.empty()) {
     particles.recorded.assign(slots / math::pack_width, 0);
-    for (auto* change : {&particles.strain_change, &particles.stress_change})
-      for (math::AlignedArray& component : *change) component.assign(slots, 0.0);
+    for (math::AlignedArray& component : particles.strain_change) component.assign(slots, 0.0);
   }
   particles.recorded[slot / math::pack_width] = 1;
 }

@@ -29,12 +29,9 @@ inline void add(materials::SlidingStep& step, const mpm::Body<materials::Charge>
   const auto deviator = [slot](const std::array<math::AlignedArray, 3>& change) {
     return math::Deviator<double>{change[0][slot], change[1][slot], change[2][slot]};
   };
-  const math::Deviator<double> e = deviator(p.strain_change);
   step.pressure += weight * p.pressure[slot];
   step.volume_ratio += weight * p.volume_ratio[slot];
-  step.strain = step.strain + weight * e;
-  step.inelastic =
-      step.inelastic + weight * (e - (0.5 / charge.law.shear_modulus()) * deviator(p.stress_change));
+  step.strain = step.strain + weight * deviator(p.strain_change);
 }
 
 /// Stations tile the charge's bottom by the width that the scene states, down to the depth that it states;

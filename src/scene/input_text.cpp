@@ -65,7 +65,7 @@ std::size_t letters_apart(std::string_view a, std::string_view b) {
 }
 
 /// Whether words surely mean different things, however near they are: those with other digits, as "G1" and
-/// "G4", or with letters before the whole of the other, as "elastic" and "inelastic".
+/// "G4", or with letters before the whole of the other, as "elastic" and "viscoelastic".
 bool differ_in_meaning(std::string_view a, std::string_view b) {
   const auto digits = [](std::string word) {
     std::erase_if(word, [](char c) { return c < '0' || c > '9'; });

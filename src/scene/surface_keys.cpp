@@ -50,7 +50,7 @@ std::vector<Key<Surface>> friction_keys() {
   }
   return {
       word_key("closure", Standing::assumed,
-               "Which strain rate the sliding friction acts on: total, inelastic or none.", words,
+               "Strain rate that the sliding friction acts on: the total one, or none.", words,
                &Surface::friction) |
           plausibly(plausible, "without friction heat the published temperatures are missed by 80 K",
                     Role{ActsOn::heat, Part::model}),

@@ -17,7 +17,7 @@ const std::string accuracy_text =
     "kind = \"accuracy\"\nscene = \"scene_155mm.toml\"\ngaps = \"0, 0.02, 0.039 cm\"\n"
     "reference_cell_sizes = \"2.5, 0.625, 1.25 mm\"\nlargest_gap = \"0.2 cm\"\ntolerance = \"1e-6 cm\"\n"
     "settings = [ { \"numerics.cell_size\" = \"2.5, 5 mm\", \"numerics.inertial_scaling\" = [1, 16] },\n"
-    "             { friction.closure = [\"inelastic\"] } ]\n" +
+    "             { friction.closure = [\"none\"] } ]\n" +
     constants_on_even_lattice + "station.width = \"1.3 cm\"\nstation.depth = \"1 cm\"\n";
 
 constexpr double heated_by = 116.1;  // K, of the synthetic friction on an infinitely fine mesh
@@ -85,9 +85,9 @@ TEST(Accuracy, MeasuresErrorsOfSettingsAgainstTheLimit) {
 
 TEST(Accuracy, TellsAnotherModelFromAnError) {
   const VariantAccuracy result = result_of();
-  const AccuracyRow& other = row_of(result, "closure inelastic");
+  const AccuracyRow& other = row_of(result, "closure none");
   EXPECT_TRUE(other.other_model);
-  for (const RecordedSetting& each : result.record.settings) EXPECT_NE(each.label, "closure inelastic");
+  for (const RecordedSetting& each : result.record.settings) EXPECT_NE(each.label, "closure none");
   EXPECT_EQ(result.record.settings.size(), result.rows.size() - 1);
 }
 

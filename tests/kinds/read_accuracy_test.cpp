@@ -19,15 +19,15 @@ TEST(ReadAccuracy, MakesTheReferenceMeshesFinestFirstThenEverySetting) {
   const StudyFile study = study_of(accuracy_start + meshes +
                                    "[[settings]]\nnumerics.time_step_factor = [0.25, 0.65]\n"
                                    "numerics.cell_size = \"1.25, 5 mm\"\n"
-                                   "[[settings]]\nfriction.closure = [\"inelastic\"]\n");
+                                   "[[settings]]\nfriction.closure = [\"none\"]\n");
   std::vector<std::string> labels;
   for (const StudyCase& each : study.cases) labels.push_back(each.label);
   // The scene has 1.25 mm and a factor of 0.65: that case and the scene as it is equal the coarsest mesh.
   EXPECT_EQ(labels, (std::vector<std::string>{"cell_size 0.417 mm", "cell_size 0.625 mm", "cell_size 1.25 mm",
                                               "time_step_factor 0.25, cell_size 1.25 mm",
                                               "time_step_factor 0.25, cell_size 5 mm",
-                                              "time_step_factor 0.65, cell_size 5 mm", "closure inelastic"}));
-  EXPECT_EQ(study.cases.back().scene.scene.surface.friction, scene::FrictionClosure::inelastic);
+                                              "time_step_factor 0.65, cell_size 5 mm", "closure none"}));
+  EXPECT_EQ(study.cases.back().scene.scene.surface.friction, scene::FrictionClosure::none);
 }
 
 TEST(ReadAccuracy, TheSceneAsItIsHasACaseOfItsOwn) {

@@ -137,7 +137,7 @@ TEST_F(SafetyReport, ARowOfWhichNothingSaysHowWrongItIsHasNoUncertainty) {
     results["cases"][0]["largest_safe_gap_cm"] = nullptr;
     for (auto& row : results["verdicts"]) {
       if (row["ignition_cause"].is_null()) row["verdict"] = "INDETERMINATE";
-      row["unaccepted"] = "friction.closure = inelastic";
+      row["unaccepted"] = "friction.closure = none";
       row["reason_code"] = "unaccepted";
     }
   });

@@ -178,7 +178,6 @@ const std::map<std::string, Keys> scenes{
     {"no cracks", {{"charge.flaw_size", "\"0 mm\""}}},
     {"still cracks", {{"charge.crack_growth", "false"}}},
     {"cracks without friction", {{"charge.face_friction", "0"}, {"charge.crack_radius", "\"300 um\""}}},
-    {"inelastic closure", {{"friction.closure", "\"inelastic\""}}},
     {"no friction", {{"friction.closure", "\"none\""}}},
     {"printed kinetics",
      {{"kinetics.activation_temperature", "\"27000 K\""}, {"kinetics.ignition_temperature", "\"400 K\""}}},

@@ -118,7 +118,7 @@ TEST(AccuracyRecord, IsForeignToAnotherShellOrClosure) {
       [](auto& s) { s.bodies.front().r_end *= 1.01; },
       [](auto& s) { s.charge().strength.face_friction = 0.0; },
       [](auto& s) { s.barrel = scene::Barrel::none; },
-      [](auto& s) { s.surface.friction = scene::FrictionClosure::inelastic; },
+      [](auto& s) { s.surface.friction = scene::FrictionClosure::none; },
       [](auto& s) {
         s.interfaces = {{.body = "wall", .condition = scene::Condition::sliding, .friction = 0.1}};
       }};

@@ -125,7 +125,7 @@ TEST(CalibrationDomain, NamesWhatLiesOutside) {
        "calibration.shell", ""},
       {"wider stations", [](auto& s) { s.surface.station_width = 10e-3; }, "station.width", ""},
       {"steel", [](auto& s) { s.steel().strength.a = 1e9; }, "steel.yield_stress", ""},
-      {"closure", [](auto& s) { s.surface.friction = scene::FrictionClosure::inelastic; }, "friction.closure",
+      {"closure", [](auto& s) { s.surface.friction = scene::FrictionClosure::none; }, "friction.closure",
        ""},
       {"a wall with friction", [](auto& s) { interface_of(s, "wall").friction = 0.1; },
        "calibration.interfaces", ""},

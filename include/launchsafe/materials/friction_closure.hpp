@@ -11,14 +11,13 @@
 namespace launchsafe::materials {
 
 /// `none` is the last: the others are the indices of the table below.
-enum class FrictionClosure { total_strain_rate, inelastic, none };
+enum class FrictionClosure { total_strain_rate, none };
 
 /// What a step did to the charge at a place.
 struct SlidingStep {
-  double pressure = 0;                 ///< Pa at its end, compression positive
-  double volume_ratio = 0;             ///< V at its end
-  math::Deviator<double> strain{};     ///< increment
-  math::Deviator<double> inelastic{};  ///< that less the elastic one, the change of S over 2 G
+  double pressure = 0;              ///< Pa at its end, compression positive
+  double volume_ratio = 0;          ///< V at its end
+  math::Deviator<double> strain{};  ///< increment
 };
 
 struct FrictionClosureRow {
@@ -30,8 +29,6 @@ struct FrictionClosureRow {
 inline constexpr std::array friction_closures{
     FrictionClosureRow{"total strain rate", "literal",
                        [](const SlidingStep& step) { return math::equivalent_strain(step.strain); }},
-    FrictionClosureRow{"inelastic", "inelastic",
-                       [](const SlidingStep& step) { return math::equivalent_strain(step.inelastic); }},
 };
 static_assert(friction_closures.size() == static_cast<std::size_t>(FrictionClosure::none));
 

@@ -106,11 +106,9 @@ struct ParticleFields {
   math::AlignedArray pressure;                ///< Pa, compression positive
   math::AlignedArray temperature;             ///< K
 
-  /// Increments of the last step at the particles marked by `record`; empty while none is marked.
+  /// Increment of the last step at the particles marked by `record`; empty while none is marked.
   std::vector<std::uint8_t> recorded;               ///< by Pack of slots
   std::array<math::AlignedArray, 3> strain_change;  ///< deviatoric strain increment rr, xx, rx
-  /// Pa: stress deviator rr, xx, rx less the one before, turned with the step's rotation.
-  std::array<math::AlignedArray, 3> stress_change;
 
   std::optional<Burning> burning;  ///< of a charge from its ignition on
 };

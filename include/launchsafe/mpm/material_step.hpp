@@ -26,15 +26,11 @@ struct StressUpdate {
   Pack pressure;
 };
 
-/// Stores the increments of strain and stress (Pa) of a step at a Pack of particles.
-inline void store_increments(ParticleFields& p, std::size_t slot, const math::Deviator<Pack>& strain,
-                             const math::Deviator<Pack>& stress) {
+/// Stores the strain increment of a step at a Pack of particles.
+inline void store_increment(ParticleFields& p, std::size_t slot, const math::Deviator<Pack>& strain) {
   store(p.strain_change[0], slot, strain.rr);
   store(p.strain_change[1], slot, strain.xx);
   store(p.strain_change[2], slot, strain.rx);
-  store(p.stress_change[0], slot, stress.rr);
-  store(p.stress_change[1], slot, stress.xx);
-  store(p.stress_change[2], slot, stress.rx);
 }
 
 /// Stores what a law made of a step at a Pack of particles, and adds the energies and limiter events of the
@@ -53,8 +49,7 @@ template <class Law>
   store(p.pressure, slot, response.pressure);
   store(p.volume_ratio, slot, d.increment.volume_after);
   if constexpr (Law::heats_itself) store(p.temperature, slot, temperature);
-  if (!p.recorded.empty() && p.recorded[slot / math::pack_width] != 0)
-    store_increments(p, slot, strain, response.deviator - response.deviator_before);
+  if (!p.recorded.empty() && p.recorded[slot / math::pack_width] != 0) store_increment(p, slot, strain);
 
   const Pack volume0 = d.increment.volume_before, volume1 = d.increment.volume_after;
   const Pack work = contract(response.deviator_before + response.deviator, d.increment.deviator);
