@@ -2,6 +2,7 @@
 #include "launchsafe/report/quantities.hpp"
 #include "launchsafe/report/safety_report.hpp"
 #include "launchsafe/run/run_case.hpp"
+#include "launchsafe/scene/constants.hpp"
 
 namespace launchsafe::report {
 namespace {
@@ -80,10 +81,11 @@ StudyEvidence read_study(const path& folder, std::size_t number) {
 
 // --- all studies ---
 
-/// Whether scenes that differ in a key are of different shells. Loads, cracks, gaps, constants of the
-/// surface, interfaces and numerics are what studies vary.
+/// Whether scenes that differ in a key are of different shells. Loads, cracks, gaps, interfaces, numerics and
+/// what constants files hold, a yield stress among it, are what studies vary.
 bool is_of_shell(const std::string& key) {
   if (key == "charge.crack_radius" || key == "charge.flaw_size") return false;
+  if (scene::shipped_constants().front()->values.contains(key)) return false;
   return key == scene::foreign_shell || key.starts_with("steel.") || key.starts_with("charge.") ||
          key.starts_with("elastic.") || key.starts_with("material.");
 }

@@ -26,7 +26,7 @@ constexpr double largest_scaled_share = 0.03;
 /// 155 mm shell whose base slides (0.02 cm, cells of 2.5 mm) T max changes by 9.6 K with a scaling of 16 and
 /// by less than 2 K with 4. With steps lengthened by selective inertia four times it changes by 0.18 K
 /// without friction, 0.44 K with 0.05 and 1.1 K with 0.1; eight times by 2.4 and 9 K.
-constexpr double largest_scaling_when_sliding = 4.0, largest_selective_inertia_when_sliding = 4.0;
+constexpr double largest_scaling_when_sliding = 16.0, largest_selective_inertia_when_sliding = 4.0;
 
 /// The sampling error is the difference to a trace with half the samples. On the 155 mm shell (0.03 cm) a
 /// single interval errs by 19 K and finds no difference at all; two err by 5 K, four by 0.6 K, eight by less

@@ -29,8 +29,10 @@ Interface interface_at(const Constants& constants, const std::string& face, cons
   return faces;
 }
 
-/// The material of a law that a body names, and that is a table of its own; null where none does.
+/// The material of a law that a body names, and that is a table of its own; null where none does, or where
+/// another body is of the law's usual material, which the constants speak of.
 const NamedMaterial* named_material_of(const SceneFile& file, std::string_view law) {
+  if (contains(file.body_materials, law)) return nullptr;
   for (const std::string& name : file.body_materials)
     for (const auto* list : {&file.materials, &shipped_materials()})
       if (const NamedMaterial* found = find_named(*list, name); found != nullptr && found->law == law)

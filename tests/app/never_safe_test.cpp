@@ -26,9 +26,12 @@ std::string sound_scene() {
            {"[load]\n",
             "[load]\nshape = \"bell\"\npeak_time = \"11.49 ms\"\nwidth = \"3.03 ms\"\nsteepness = 1.44\n"},
            {"time_step_factor", "inertial_scaling = 16\ntime_step_factor"},
-           {"\"0, 0.01, 0.02, 0.03, 0.039, 0.04 cm\"", "\"0, 0.005 cm\""}})
+           {"\"0, 0.01, 0.02, 0.03, 0.039, 0.04 cm\"", "\"0, 0.005 cm\"\nskin_thickness = \"0.1 mm\""}})
     text = with(text, from, to);
-  return text;
+  // Constants as they are, to be mistaken.
+  return text +
+         "[kinetics]\nburnt_temperature = \"784 K\"\n[station]\nwidth = \"5 mm\"\ndepth = \"5 mm\"\n"
+         "[friction]\nclosure = \"total strain rate\"\n";
 }
 
 const std::string sound_study = R"(kind = "critical-gap"
@@ -171,7 +174,7 @@ TEST_F(NeverSafe, AMaterialReactsByItsOwnKineticsWhichEveryPageHas) {
 
 TEST_F(NeverSafe, OtherKineticsBesideThoseOfAMaterialAreRefusedWithBothPlaces) {
   std::vector<Edit> edits = with_hot_mix();
-  edits.push_back({"shell.toml", "[gap]\n", "[kinetics]\nactivation_temperature = \"21700 K\"\n[gap]\n"});
+  edits.push_back({"shell.toml", "[kinetics]\n", "[kinetics]\nactivation_temperature = \"21700 K\"\n"});
   const Outcome outcome = run_edited(edits);
   EXPECT_EQ(outcome.code, 2) << outcome.out;
   EXPECT_TRUE(outcome.says("kinetics.activation_temperature: found")) << outcome.err;
@@ -183,8 +186,6 @@ TEST_F(NeverSafe, AChargeThatNothingHoldsAtItsFrontIsRefused) {
   const Outcome outcome = run_edited(
       {{"shell.toml",
         "  { name = \"nose\",   material = \"steel\",  x = \"0 to 11.8 cm\",    r = \"0 to 7.75 cm\" },\n",
-        ""},
-       {"shell.toml", "[interface.nose]\ncondition = \"sliding\"\nfriction = 0                   # [C]\n",
         ""}});
   EXPECT_EQ(outcome.code, 2) << outcome.out;
   EXPECT_TRUE(outcome.says("body.charge.x")) << outcome.err;
@@ -289,8 +290,8 @@ TEST_F(NeverSafe, GapsInTheDrawingAreRefused) {
 }
 
 /// T max at 0.005 cm. A boom of 10 cm adds 1.5 % of mass, and so takes as much from the setback pressure;
-/// heat goes with its square, so that 3 % of the rise of 130 K are lost, and where the boom alone was pushed
-/// nearly all of it.
+/// heat goes with its power of 3.6 where the wall yields, so that 5 % of the rise of 140 K are lost, and where
+/// the boom alone was pushed nearly all of it.
 TEST_F(NeverSafe, ABoomTakesNothingFromTheLoadButItsMass) {
   const auto hottest = [this] {
     const std::string table = read("out/verdicts.csv");
@@ -303,7 +304,7 @@ TEST_F(NeverSafe, ABoomTakesNothingFromTheLoadButItsMass) {
       run_edited(drawn(R"(x = "67.8 to 74 cm", r = "0 to 7.75 cm")",
                        R"(  { name = "boom", material = "steel", x = "74 to 84 cm", r = "0 to 2 cm" },)"));
   EXPECT_LT(hottest(), without) << outcome.err;
-  EXPECT_GT(hottest(), without - 6.0);
+  EXPECT_GT(hottest(), without - 8.0);
   EXPECT_NE(run({"explain", "shell.toml"}).out.find("100 % of pi R^2 p, up to x = 74 cm"), std::string::npos);
 }
 

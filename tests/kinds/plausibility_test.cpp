@@ -110,7 +110,7 @@ TEST(StudyPlausibility, EveryCaseOfASweepIsJudgedOnItsOwnValues) {
 }
 
 TEST(StudyPlausibility, WhatAStudySetsHasToGiveTheExpectedVelocityToo) {
-  const std::string expected = "load.expected_velocity = \"800 m/s\"\n";
+  const std::string expected = "load.expected_velocity = \"760 m/s\"\n";
   EXPECT_TRUE(parse_here(safe_study("", expected)));
   const auto mistaken = parse_here(safe_study("", expected + "load.peak = \"248 MPa\"\n"));
   ASSERT_FALSE(mistaken);

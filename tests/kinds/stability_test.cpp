@@ -147,7 +147,7 @@ TEST(Stability, EveryBrokenInvariantUnderASafeVerdictIsWrong) {
       {wrong, "plastic dissipation falls", [](auto& m, auto&) { m.monitor[0].energy.plastic = 6.0; }},
       {wrong, "crack dissipation falls", [](auto& m, auto&) { m.monitor[1].energy.crack = -1.0; }},
       {wrong, "viscous dissipation falls", [](auto& m, auto&) { m.monitor[1].energy.viscous = -1.0; }},
-      {wrong, "friction heat falls", [](auto& m, auto&) { m.trace.friction[1][400] = 0.0; }},
+      {wrong, "friction heat falls", [](auto& m, auto&) { m.trace.friction[0][400] = 0.0; }},
       {wrong, "the skin falls", cooled_by_friction},
   });
 }

@@ -48,7 +48,7 @@ TEST_F(SafetyReport, MarkupInAStudyIsShownAndNotObeyed) {
       "<script>alert(1)</script> <img src=x onerror=alert(2)> [a](javascript:b) {{title}} & \"q\"";
   change(study, [&](auto& results) { results["title"] = evil; });
   ask(study, "Critical bottom gap of the 155 mm shell", evil);
-  replace_in(study / "study.json", "below the lower bound of the critical gap, 0.0273 cm",
+  replace_in(study / "study.json", "below the lower bound of the critical gap, 0.0246 cm",
              "below <b onclick=x>| a </td>");
   const std::string html = file_of({study}, "report.html"), page = file_of({study}, "report.md");
   EXPECT_FALSE(has(html, "<script"));
@@ -79,7 +79,7 @@ TEST_F(SafetyReport, VerdictsThatAreIndeterminateAreCountedAndToldOnPageOneWithT
   });
   EXPECT_TRUE(has(page_one(), "| cracks run away; limiters acted |"));
   EXPECT_TRUE(has(page_one(), "| 0.02 | INDETERMINATE |"));
-  EXPECT_EQ(nlohmann::json::parse(file_of({study}, "report.json"))["answer"]["cases"][0]["INDETERMINATE"], 2);
+  EXPECT_EQ(nlohmann::json::parse(file_of({study}, "report.json"))["answer"]["cases"][0]["INDETERMINATE"], 3);
 }
 
 TEST_F(SafetyReport, OnlyCoupledRunsThatAgreeConfirmACriticalGap) {
@@ -188,7 +188,7 @@ TEST_F(SafetyReport, AFolderWithoutAStudyIsRefused) {
 
 TEST_F(SafetyReport, AnotherModelVersionIsRefused) {
   const path study = copy_of("critical_gap_155mm");
-  replace_in(study / "manifest.json", "\"model_version\": 7", "\"model_version\": 6");
+  replace_in(study / "manifest.json", "\"model_version\": 8", "\"model_version\": 6");
   EXPECT_TRUE(has(fault_of({study}), "6")) << fault_of({study});
 }
 

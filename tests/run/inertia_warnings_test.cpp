@@ -71,11 +71,11 @@ TEST(ValidityWarnings, ScaledInertiaOfAChargeThatSlidesBeyondWhatWasMeasured) {
   };
   EXPECT_TRUE(warnings_with(200.0, 1.0).empty());
   scene.interfaces = {{.body = "wall", .condition = scene::Condition::sliding, .friction = 0.1}};
-  EXPECT_TRUE(warnings_with(4.0, 1.0).empty());
+  EXPECT_TRUE(warnings_with(16.0, 1.0).empty());
   EXPECT_TRUE(warnings_with(1.0, 4.0).empty());
-  expect_one(warnings_with(4.1, 1.0), "4");
-  expect_one(warnings_with(1.0, 4.1), "4");
-  expect_one(warnings_with(4.0, 2.0), "4");
+  expect_one(warnings_with(17.0, 1.0), "16");
+  expect_one(warnings_with(1.0, 4.1), "16");
+  expect_one(warnings_with(16.0, 2.0), "16");
 }
 
 TEST(ValidityWarnings, SelectiveInertiaUnderALoadThatRisesFast) {

@@ -38,7 +38,7 @@ namespace {
 /// of an air that left the program; the others are as they were.
 const std::map<int, std::uint64_t> digests{
     {1, 0xcf8fc17d687d3b02U}, {2, 0x112296e02854258eU}, {3, 0x877cf8e49058e86aU}, {4, 0x4aba6e72ec35a753U},
-    {5, 0x7d5a120e32c22987U}, {6, 0x505b6901eec626c1U}, {7, 0xc4396f0fc1916b8bU}, {8, 0x65d8966960e727f4U}};
+    {5, 0x7d5a120e32c22987U}, {6, 0x505b6901eec626c1U}, {7, 0xc4396f0fc1916b8bU}, {8, 0x0e0ec035c01c520eU}};
 
 const char* const numbers_file = LAUNCHSAFE_SOURCE_DIR "/tests/run/model_numbers.csv";
 

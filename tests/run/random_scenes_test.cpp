@@ -90,8 +90,8 @@ std::string random_air() {
   return fmt::format(
       "gap.thickness = \"0, {} mm\"\ngap.exchange_time = \"{} ms\"\nfriction.closure = {}\n"
       "friction.localisation = {}\nkinetics.activation_temperature = \"{} K\"\n",
-      between(0.01, 5), between_ratios(1e-3, 10), word({"total strain rate", "none"}),
-      between(0, 1500), flag() ? 21700 : 27000);
+      between(0.01, 5), between_ratios(1e-3, 10), word({"total strain rate", "none"}), between(0, 1500),
+      flag() ? 21700 : 27000);
 }
 
 /// A load whose shape belongs to some hundred time steps of the scene.

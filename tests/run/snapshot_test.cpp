@@ -21,7 +21,7 @@ using scene::Event;
 /// A shell with smooth or rough faces, or bonded ones, whose skin ignites after some 0.2 ms.
 scene::Scene shell(const std::string& more = "") {
   auto file =
-      scene::parse_scene(testing::small_shell + testing::small_shell_base + more +
+      scene::parse_scene("constants = \"none\"\n" + testing::small_shell + testing::small_shell_base + more +
                              "[load]\nduration = \"0.3 ms\"\npeak = \"200 MPa\"\n"
                              "peak_time = \"0.2 ms\"\nexponent = 4\nshape = "
                              "\"power-exponential\"\n[numerics]\ncell_size = \"2.5 mm\"\n"

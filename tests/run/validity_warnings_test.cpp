@@ -15,6 +15,7 @@ using test_support::expect_one, test_support::shipped_scene, test_support::sound
 TEST(ValidityWarnings, ASoundRunHasNone) {
   scene::Scene scene = shipped_scene();
   EXPECT_TRUE(validity_warnings(scene, sound_run()).empty());
+  scene.numerics.selective_inertia = 1.0;
   scene.numerics.inertial_scaling = 16.0;
   EXPECT_TRUE(validity_warnings(scene, sound_run()).empty());
   // The extremes of sweep_pressure_defect.toml.

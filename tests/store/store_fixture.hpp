@@ -54,7 +54,7 @@ inline std::optional<std::string> answer_in(const store::CaseStore& store, int n
 
 class StoreFixture : public TemporaryFolder {
  protected:
-  static constexpr int model_version = 7;
+  static constexpr int model_version = scene::model_version;
 
   std::filesystem::path where() const { return folder() / "study"; }
   std::filesystem::path results() const { return where() / "study.db"; }

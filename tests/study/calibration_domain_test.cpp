@@ -75,7 +75,7 @@ TEST(CalibrationDomain, SeveralConstantsOfMaterialsAreOneProperty) {
 /// Issue 31, point 6: bodies of a second steel, under whatever name, and steels that change places.
 TEST(CalibrationDomain, AllMaterialsOfAllBodiesCount) {
   scene::Scene scene = shipped_calibration().scene;
-  scene.materials.push_back({"second", scene::Steel{}});
+  scene.materials.push_back({"second", scene.steel()});
   scene.bodies.back().material = "second";
   EXPECT_EQ(foreign_in(scene), Keys{}) << "another name is no other steel";
   std::get<scene::Steel>(scene.materials.back().law).strength.a *= 1.5;

@@ -135,7 +135,7 @@ TEST(CaseUncertainty, SilenceAboutTheFitCostsTheBoundOfTheMisfits) {
   const GapVerdict row = first_row(
       "numerical_uncertainty = { value = \"1 K\", because = \"for a test\" }\ninput_uncertainty = { value = "
       "\"3 K\", because = \"for a test\" }\n");
-  EXPECT_NEAR(row.uncertainty.fit, CalibrationEvidence{}.fit_uncertainty, 0.01);
+  EXPECT_NEAR(row.uncertainty.fit, shipped_calibration().evidence.fit_uncertainty, 0.01);
 }
 
 /// 4 % of pressure are 8.16 % of the friction heat of 116.1 K; 12 K of initial temperature are 12 K; without
@@ -225,7 +225,7 @@ TEST(CaseUncertainty, WhatSmoothingTakesFromThePeakCounts) {
 TEST(CaseUncertainty, AnotherShellIsIndeterminateUnlessItsSceneSaysWhyNot) {
   for (const std::string change :
        {"body.charge.x = \"12 to 67.8 cm\"\nbody.wall.x = \"12 to 67.8 cm\"\nbody.nose.x = \"0 to 12 cm\"\n",
-        "friction.closure = \"none\"\n", "charge.density = \"1.65 g/cm3\"\n",
+        "charge.density = \"1.65 g/cm3\"\n",
         "friction.localisation = 1200\n"}) {
     for (const bool accepted : {false, true}) {
       StudyFile study = study_of(critical_kind + no_confirmation + stated + "[set]\n" + change);

@@ -86,7 +86,7 @@ inline trace::BottomTrace synthetic_trace(double peak, double friction) {
                     {"S2", 0.678, 0.0575, 1e-4, false},
                     {"S3", 0.678, 0.0025, 1e-4, false},
                     {"G1", 0.6775, 0.0637, 0.0, true}};
-  const double shares[2][4] = {{0.95, 1.0, 0.7, 1.02}, {0.9, 1.0, 0.5, 1.02}};
+  const double shares[4] = {0.95, 1.0, 0.7, 1.02};
   const auto pressure = [peak](double t) {
     return 101325.0 + 140.0 / 496.0 * peak * std::pow(t / 11e-3 * std::exp(1.0 - t / 11e-3), 12.0);
   };
@@ -99,10 +99,8 @@ inline trace::BottomTrace synthetic_trace(double peak, double friction) {
     trace.bottom_pressure.push_back(pressure(t));
     trace.mean_bottom_pressure.push_back(mean);
     trace.chamber_pressure.push_back(496.0 / 140.0 * pressure(t));
-    for (std::size_t closure = 0; closure < 2; ++closure) {
-      for (const double share : shares[closure])
-        trace.friction[closure].push_back(share * friction * std::pow(t / 18e-3, 3.0));
-    }
+    for (const double share : shares)
+      trace.friction[0].push_back(share * friction * std::pow(t / 18e-3, 3.0));
   }
   return trace;
 }

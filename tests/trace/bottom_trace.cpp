@@ -42,7 +42,7 @@ TEST(ThinnedTrace, KeepsEverySecondSampleAndTheLast) {
     EXPECT_EQ(half.time.front(), whole.time.front());
     EXPECT_EQ(half.time.back(), whole.time.back());
     EXPECT_EQ(half.friction[0].size(), half.samples() * 2);
-    EXPECT_EQ(half.friction[1].back(), whole.friction[1].back());
+    EXPECT_EQ(half.friction[0].back(), whole.friction[0].back());
   }
 }
 
@@ -70,7 +70,7 @@ TEST(Trace, UntilATimeEndsWithTheLastSampleBefore) {
     EXPECT_EQ(each.samples(), 6u);
     EXPECT_EQ(each.time.back(), whole.time[5]);
     EXPECT_EQ(each.mean_bottom_pressure[3], whole.mean_bottom_pressure[3]);
-    EXPECT_EQ(each.friction[1].size(), 12u);
+    EXPECT_EQ(each.friction[0].size(), 12u);
   }
   EXPECT_EQ(until(whole, 2.0 * whole.time.back()).samples(), 9u);
 }
@@ -79,8 +79,8 @@ TEST(ThinnedTrace, OfNothingIsNothing) { EXPECT_EQ(thinned(BottomTrace{}).sample
 
 TEST(ThinnedTrace, LeavesOutAClosureThatWasNotTraced) {
   BottomTrace trace = example(5);
-  trace.friction[1].clear();
-  EXPECT_TRUE(thinned(trace).friction[1].empty());
+  trace.friction[0].clear();
+  EXPECT_TRUE(thinned(trace).friction[0].empty());
 }
 
 TEST(Interpolate, IsLinearBetweenSamplesAndConstantOutside) {
