@@ -290,8 +290,8 @@ TEST_F(NeverSafe, GapsInTheDrawingAreRefused) {
 }
 
 /// T max at 0.005 cm. A boom of 10 cm adds 1.5 % of mass, and so takes as much from the setback pressure;
-/// heat goes with its power of 3.6 where the wall yields, so that 5 % of the rise of 140 K are lost, and where
-/// the boom alone was pushed nearly all of it.
+/// heat goes with its power of 3.6 where the wall yields, so that 5 % of the rise of 140 K are lost, and
+/// where the boom alone was pushed nearly all of it.
 TEST_F(NeverSafe, ABoomTakesNothingFromTheLoadButItsMass) {
   const auto hottest = [this] {
     const std::string table = read("out/verdicts.csv");

@@ -135,8 +135,8 @@ TEST(ReadStudy, ACalibrationFitsNothingToRowsOfAnotherLaunch) {
     EXPECT_NE(found(scene, set).find(difference), std::string::npos) << set << ": " << found(scene, set);
   // A model of the launch, its mesh, and what constants hold.
   for (const std::string set :
-       {"interface.wall.friction = 0.1", "friction.closure = \"none\"",
-        "numerics.cell_size = \"2.5 mm\"", "load.width = \"4 ms\"", "steel.yield_stress = \"700 MPa\""})
+       {"interface.wall.friction = 0.1", "friction.closure = \"none\"", "numerics.cell_size = \"2.5 mm\"",
+        "load.width = \"4 ms\"", "steel.yield_stress = \"700 MPa\""})
     EXPECT_EQ(found(own, set), "");
 }
 

@@ -225,8 +225,7 @@ TEST(CaseUncertainty, WhatSmoothingTakesFromThePeakCounts) {
 TEST(CaseUncertainty, AnotherShellIsIndeterminateUnlessItsSceneSaysWhyNot) {
   for (const std::string change :
        {"body.charge.x = \"12 to 67.8 cm\"\nbody.wall.x = \"12 to 67.8 cm\"\nbody.nose.x = \"0 to 12 cm\"\n",
-        "charge.density = \"1.65 g/cm3\"\n",
-        "friction.localisation = 1200\n"}) {
+        "charge.density = \"1.65 g/cm3\"\n", "friction.localisation = 1200\n"}) {
     for (const bool accepted : {false, true}) {
       StudyFile study = study_of(critical_kind + no_confirmation + stated + "[set]\n" + change);
       ASSERT_EQ(study.cases.size(), 1u);
