@@ -2,6 +2,7 @@
 at the bottom where their stresses are compared, and the targets. Lengths are in m and stresses in MPa."""
 import dataclasses
 import math
+import pathlib
 import tomllib
 
 BOX = 5e-3                            # stresses are means over boxes of this size at the bottom, by r dr dx
@@ -57,21 +58,27 @@ CASES = [Case("elastic shell, 50 MPa"), Case("plastic wall, 496 MPa", 496.0, yie
          Case("smooth wall, base bonded", sliding={"nose": 0, "wall": 0})]
 
 
+FACES = {"front": "nose", "side": "wall", "bottom": "base"}
+CONSTANTS = pathlib.Path(__file__).parents[2] / "studies/constants"
+
+
 def launch_of(scene):
-    """A scene's launch at its peak. Of its keys those count in which models of the launch differ; the shell is SHELL."""
+    """A scene's launch at its peak. Of its keys those count in which models of the launch differ, with those of its
+    constants where the scene says nothing; the shell is SHELL."""
     def metres(span):
         begin, _, end, unit = span.split()
         return [round(float(value) * {"cm": 1e-2, "mm": 1e-3, "m": 1}[unit], 9) for value in (begin, end)]
     def megapascals(text):
         number, unit = text.split()
-        return float(number) * {"MPa": 1, "GPa": 1e3}[unit]
+        return float(number) * {"Pa": 1e-6, "MPa": 1, "GPa": 1e3}[unit]
     keys = tomllib.loads(scene)
     bodies = {body["name"]: (body["material"], *metres(body["x"]), *metres(body["r"])) for body in keys["body"]}
     assert bodies == SHELL, "another shell"
+    constants = tomllib.loads((CONSTANTS / (keys.get("constants", "155mm") + ".toml")).read_text())["set"]
+    held = {FACES[face]: how for face, how in constants["interface"].items()} | keys.get("interface", {})
     return Case("launch at its peak", megapascals(keys["load"]["peak"]),
-                megapascals(keys.get("steel", {}).get("yield_stress", "792 MPa")), FLOW_TIME,
-                {body: faces["friction"] for body, faces in keys.get("interface", {}).items()
-                 if faces["condition"] == "sliding"}, launch=True)
+                megapascals((constants["steel"] | keys.get("steel", {}))["yield_stress"]), FLOW_TIME,
+                {body: how["friction"] for body, how in held.items() if how["condition"] == "sliding"}, launch=True)
 
 
 def slab_means(cells, bottom):

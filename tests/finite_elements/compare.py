@@ -50,6 +50,7 @@ def scene_of(case, given):
     moduli = "" if case.yield_stress else ', shear_moduli = "944, 1e-6, 1e-6, 1e-6, 1e-6 MPa"'
     charge = f'charge = {{ flaw_size = "0 mm", tension_cutoff = "1 TPa"{moduli} }}\n' if case.shell else ""
     return f"""title = "{case.name}"
+constants = "none"
 barrel = "{'rigid' if case.shell else 'none'}"
 body = [\n{bodies}\n]
 steel = {{ {'rate_sensitivity = 0' if case.yield_stress else 'yield_stress = "1 TPa"'} }}
