@@ -86,6 +86,7 @@ SkinModel skin_model(const scene::Scene& scene) {
   model.kinetics = scene.charge().kinetics;
   model.charge_density = scene.charge().density;
   model.specific_heat = scene.charge().specific_heat;
+  model.conductivity = scene.charge().conductivity;
   model.initial_temperature = scene.initial_temperature;
   return model;
 }

@@ -38,6 +38,7 @@ struct SkinModel {
   materials::KineticsParameters kinetics;
   double charge_density = 1717.0;      ///< kg/m3
   double specific_heat = 1780.0;       ///< J/(kg K)
+  double conductivity = 0.246;         ///< W/(m K); counts after the launch only, in after_launch.hpp
   double initial_temperature = 300.0;  ///< K
   double relative_tolerance = 1e-8;    ///< of the time integration
 };
