@@ -15,7 +15,6 @@ enum class ExitCode {
   done = 0,
   bad_input = 2,
   cases_failed = 3,
-  indeterminate = 4,
   failed = 70,
   interrupted = 75
 };

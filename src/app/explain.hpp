@@ -8,8 +8,8 @@ namespace launchsafe::app {
 
 struct ExplainArguments {
   path file;  ///< scene or study; with one of the lists that follow the beginning of names, or empty
-  bool keys = false, results = false;
-  bool lists() const { return keys || results; }
+  bool keys = false, results = false, warnings = false;
+  bool lists() const { return keys || results || warnings; }
 };
 
 /// What of a scene is computed, on which grid, and at what cost, in SI; particle updates per second > 0.
@@ -19,9 +19,6 @@ std::string scene_text(const scene::Scene& scene, Json facts);
 
 /// Peaks, end, exit and smoothing of a load, in SI.
 Json load_json(const scene::Scene& scene);
-
-/// Key, value, plausible range and acceptance (or null) of every value that is not plausible.
-Json plausibility_json(const scene::Scene& scene);
 
 /// What of a launch a load does not cover, for which no verdict stands; empty for none.
 std::string uncovered_text(const scene::Load& load);
@@ -36,7 +33,7 @@ std::string estimate_text(const study::StudyFile& file, Json facts);
 /// the user stops it.
 double measured_update_rate(const scene::Scene& scene, Console& console);
 
-/// Prints keys or columns of results.
+/// Prints keys, columns of results, or validity warnings.
 ExitCode explain_program(const ExplainArguments& arguments, Console& console);
 
 }  // namespace launchsafe::app

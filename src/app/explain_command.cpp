@@ -4,7 +4,6 @@
 #include "launchsafe/report/quantities.hpp"
 #include "launchsafe/report/study_text.hpp"
 #include "launchsafe/scene/plan.hpp"
-#include "launchsafe/study/case_answer.hpp"
 
 namespace launchsafe::app {
 namespace {
@@ -23,64 +22,13 @@ scene::Scene measurable(scene::Scene scene) {
   return scene;
 }
 
-// --- what is not plausible ---
-
-std::string line_of(const scene::Implausible& value) {
-  if (value.accepted()) return scene::accepted_text({value});
-  return fmt::format("validity warning: {}{}", scene::validity_warning(value),
-                     value.suggestion.empty() ? "" : fmt::format("; did you mean \"{}\"?", value.suggestion));
-}
-
-/// A study of the scene alone, under the shipped calibration.
-study::StudyFile study_of(const scene::SceneFile& file) {
-  study::StudyFile alone;
-  alone.study.kind.gives_verdicts = scene::has_charge(file.scene);
-  study::StudyCase only;
-  only.scene = alone.scene = file;
-  alone.cases.add(std::move(only));
-  return alone;
-}
-
-/// What is not plausible; what is to be accepted, ready to copy; and acceptances that accept nothing.
-std::string checks_text(const std::vector<std::string>& implausible, const study::AcceptancesOfStudy& all) {
-  return told("checks.txt", {{"plausibility", implausible},
-                             {"missing", scene::acceptances_to_write(all.missing)},
-                             {"unneeded", all.unneeded}});
-}
-
-/// One sentence for every value that is not plausible, of the cases of a study and of what it states itself,
-/// with the number of several cases. Empty for a kind that gives no verdicts on scenes of its own.
-std::vector<std::string> plausibility_lines(const study::StudyFile& study) {
-  if (!study.study.kind.gives_verdicts && study.study.kind.own_scenes) return {};
-  std::vector<std::string> lines = study::of_each(study.study.implausible, line_of);
-  std::vector<std::string> order;
-  std::map<std::string, std::size_t> cases;
-  for (const study::StudyCase& each : study.cases) {
-    for (const scene::Implausible& value : scene::implausible_values(each.scene.scene)) {
-      const std::string line = line_of(value);
-      if (++cases[line] == 1) order.push_back(line);
-    }
-  }
-  // A sensitivity study may have another value in every case.
-  constexpr std::size_t most_lines = 20;
-  for (std::size_t i = 0; i < std::min(order.size(), most_lines); ++i)
-    lines.push_back(study.cases.size() == 1
-                        ? order[i]
-                        : fmt::format("{} ({} of {} cases)", order[i], cases[order[i]], study.cases.size()));
-  if (order.size() > most_lines)
-    lines.push_back(fmt::format("and {} other values like these", order.size() - most_lines));
-  return lines;
-}
-
 ExitCode explain_scene(const path& place, Console& console) {
   const scene::SceneFile file = console.value_of(scene::read_scene(place));
   const scene::Scene& scene = file.scene;
   const double update_rate = measured_update_rate(scene, console);
-  const study::StudyFile alone = study_of(file);
   Json facts = scene_json(scene, update_rate);
   facts["kinetics"] = report::kinetics_json(file);
-  return console.done(
-      scene_text(scene, facts) + checks_text(plausibility_lines(alone), study::acceptances_of(alone)), facts);
+  return console.done(scene_text(scene, facts), facts);
 }
 
 ExitCode explain_study(const path& place, Console& console) {
@@ -97,7 +45,7 @@ std::string estimate_text(const study::StudyFile& file, Json facts) {
                 {"combustion", scene::time_text(file.scene.scene.combustion.duration)}});
   for (const auto& [key, value] : file.overrides)
     facts["overrides"].push_back(fmt::format("{:<19} {}", key, value));
-  return told("estimate.txt", facts) + checks_text(facts["implausible"], study::acceptances_of(file));
+  return told("estimate.txt", facts);
 }
 
 Json estimate_json(const study::StudyFile& file, const study::StudyOptions& options, Console& console) {
@@ -116,8 +64,7 @@ Json estimate_json(const study::StudyFile& file, const study::StudyOptions& opti
           {"particle_updates", estimate.updates},
           {"updates_per_second", rate},
           {"memory_bytes", estimate.memory},
-          {"predicted_time_s", estimate.time(rate)},
-          {"implausible", plausibility_lines(file)}};
+          {"predicted_time_s", estimate.time(rate)}};
 }
 
 double measured_update_rate(const scene::Scene& scene, Console& console) {
@@ -140,7 +87,7 @@ double measured_update_rate(const scene::Scene& scene, Console& console) {
 
 ExitCode perform(const ExplainArguments& arguments, Console& console) {
   if (!arguments.lists() && arguments.file.empty())
-    console.refuse("explain: allowed: a scene or study, or one of --keys and --results" +
+    console.refuse("explain: allowed: a scene or study, or one of --keys, --results and --warnings" +
                    usage_hint("explain "));
   if (arguments.lists()) return explain_program(arguments, console);
   if (scene::content_of(arguments.file) != scene::InputContent::study)
@@ -151,7 +98,9 @@ ExitCode perform(const ExplainArguments& arguments, Console& console) {
 void add_explain(CLI::App& app, CommandLine& line) {
   auto [command, explain] = add_command<ExplainArguments>(app, line, "explain");
   add(command, "file", explain.file);
-  add(command, "--keys", explain.keys)->excludes(add(command, "--results", explain.results));
+  CLI::Option* keys = add(command, "--keys", explain.keys);
+  CLI::Option* results = add(command, "--results", explain.results)->excludes(keys);
+  add(command, "--warnings", explain.warnings)->excludes(keys)->excludes(results);
 }
 
 }  // namespace launchsafe::app

@@ -1,4 +1,4 @@
-// What launchsafe explains of itself: the keys of its files and the columns of its results.
+// What launchsafe explains of itself: the keys of its files, the columns of its results, and its warnings.
 #include "explain.hpp"
 
 namespace launchsafe::app {
@@ -44,7 +44,6 @@ Json listed(const std::vector<scene::DocumentedKey>& keys, NameSearch& search) {
       rows.push_back({{"key", described.name},
                       {"si_unit", scene::si_unit_of(described.dimension)},
                       {"allowed", scene::allowed_text(described)},
-                      {"plausible", scene::plausible_text(described)},
                       {"default", default_text},
                       {"required", described.required},
                       {"standing", scene::letter_of(described.standing)},
@@ -52,27 +51,13 @@ Json listed(const std::vector<scene::DocumentedKey>& keys, NameSearch& search) {
   return rows;
 }
 
-/// For people, who are told what is plausible only where a reason is known.
-std::string text_of_keys(Json rows) {
-  for (Json& row : rows)
-    if (row["plausible"].get_ref<std::string&>().find(", because ") == std::string::npos)
-      row.erase("plausible");
-  return told("key_list.txt", {{"rows", rows}});
-}
-
 /// The keys of scene and study files, from the same descriptions that read them.
 ExitCode explain_keys(const std::string& word, Console& console) {
   NameSearch search{word};
   Json rows{{"keys", listed(scene::describe_keys(), search)}};
-  if (word.empty())
-    for (const auto& [described, value] : scene::derived_quantities())
-      rows["derived_quantities"].push_back({{"quantity", described.name},
-                                            {"si_unit", scene::si_unit_of(described.dimension)},
-                                            {"plausible", scene::plausible_text(described)},
-                                            {"sentence", described.sentence}});
   rows["study_keys"] = listed(kinds::describe_study_keys(), search);
   Json facts{{"standings", word.empty() ? standings() : ""}};
-  for (const auto& [name, list] : rows.items()) facts[name] = text_of_keys(list);
+  for (const auto& [name, list] : rows.items()) facts[name] = told("key_list.txt", {{"rows", list}});
   if (facts["keys"] == "" && facts["study_keys"] == "")
     search.refuse("explain --keys", "key", "load", console);
   return print_list(told("keys.txt", facts), rows, console);
@@ -101,10 +86,26 @@ ExitCode explain_results(const std::string& word, Console& console) {
                     console);
 }
 
+/// Every validity warning on a line of its own.
+ExitCode explain_warnings(const std::string& word, Console& console) {
+  NameSearch search{word};
+  Json list = Json::array();
+  std::string text;
+  for (const run::WarningKind& kind : run::warning_kinds()) {
+    if (!search.finds(kind.name)) continue;
+    list.push_back({{"name", kind.name}, {"acceptable", kind.acceptable}, {"meaning", kind.meaning}});
+    text += fmt::format("{:<20} {:<14} {}\n", kind.name, kind.acceptable ? "acceptable" : "not acceptable",
+                        kind.meaning);
+  }
+  if (list.empty()) search.refuse("explain --warnings", "warning", "velocity", console);
+  return console.done(text, {{"warnings", list}});
+}
+
 }  // namespace
 
 ExitCode explain_program(const ExplainArguments& arguments, Console& console) {
   const std::string word = arguments.file.string();
+  if (arguments.warnings) return explain_warnings(word, console);
   return arguments.keys ? explain_keys(word, console) : explain_results(word, console);
 }
 

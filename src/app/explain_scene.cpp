@@ -161,16 +161,6 @@ Json load_json(const scene::Scene& scene) {
           {"uncovered", run::uncovered_load(load)}};
 }
 
-Json plausibility_json(const scene::Scene& scene) {
-  Json list = Json::array();
-  for (const scene::Implausible& each : scene::implausible_values(scene))
-    list.push_back({{"key", each.key},
-                    {"value", each.value},
-                    {"plausible", each.range},
-                    {"accepted_because", each.accepted() ? Json(each.because) : nullptr}});
-  return list;
-}
-
 Json scene_json(const scene::Scene& scene, double update_rate) {
   const scene::Plan plan = scene::make_plan(scene);
   Json interfaces = Json::array();
@@ -192,8 +182,7 @@ Json scene_json(const scene::Scene& scene, double update_rate) {
           {"updates_per_second", update_rate},
           {"predicted_time_s", scene::predicted_time(plan, update_rate)},
           {"predicted_time_of_a_coupled_run_s",
-           plan.coupling.in ? Json(plan.coupled_work / update_rate) : nullptr},
-          {"implausible", plausibility_json(scene)}};
+           plan.coupling.in ? Json(plan.coupled_work / update_rate) : nullptr}};
 }
 
 }  // namespace launchsafe::app

@@ -5,10 +5,11 @@ namespace launchsafe::app {
 namespace {
 
 struct InitArguments {
-  path output;                 ///< folder for the files
-  double calibre = 0.155;      ///< m
-  std::optional<path> curve;   ///< measured pressure; none: the analytic shape
-  std::optional<double> peak;  ///< Pa, of the analytic shape
+  path output;                     ///< folder for the files
+  double calibre = 0.155;          ///< m
+  std::optional<path> curve;       ///< measured pressure; none: the analytic shape
+  std::optional<double> peak;      ///< Pa, of the analytic shape
+  std::optional<double> velocity;  ///< m/s at the muzzle, from a range table
 };
 
 constexpr double published_calibre = 0.155;  // m
@@ -21,11 +22,8 @@ std::string scaled_length(double published, double factor) {
 
 /// What the texts take from the arguments. `curve`: TOML text with the name of its file.
 Json values_of(const InitArguments& arguments, const std::optional<scene::PressureCurve>& curve) {
-  // A gun that is scaled launches as fast, in a time that is scaled too.
   const double factor = arguments.calibre / published_calibre;
-  const double duration = curve ? curve->time.back() : factor * published_exit;
-  const scene::Load published;
-  const auto milliseconds = [](double time) { return fmt::format("{:.4g}", 1e3 * time); };
+  const double duration = curve ? curve->time.back() : published_exit;
   return {{"calibre", fmt::format("{:g} mm", 1e3 * arguments.calibre)},
           {"factor", fmt::format("{:.4g}", factor)},
           {"charge_begin", scaled_length(118, factor)},
@@ -34,17 +32,15 @@ Json values_of(const InitArguments& arguments, const std::optional<scene::Pressu
           {"bore", scaled_length(65, factor)},
           {"outer", fmt::format("{:g}", 500 * arguments.calibre)},
           {"curve", curve ? "\"pressure.csv\"" : ""},
-          {"peak", scene::pressure_text(arguments.peak.value_or(published.peak))},
-          {"peak_time", milliseconds(factor * published.peak_time)},
-          {"width", milliseconds(factor * published.width)},
-          {"exit", milliseconds(duration)},
+          {"peak", scene::pressure_text(arguments.peak.value_or(scene::Load().peak))},
+          {"velocity", arguments.velocity ? fmt::format("{:.4g} m/s", *arguments.velocity) : ""},
+          {"exit", fmt::format("{:.4g}", 1e3 * duration)},
           {"early_time", fmt::format("{:.3g}", 0.55e3 * duration)}};
 }
 
 NamedTexts files_of(const Json& values) {
   NamedTexts files;
-  for (const char* name : {"scene.toml", "critical_gap.toml", "accuracy.toml"})
-    files.push_back({name, told(name, values)});
+  for (const char* name : {"scene.toml", "critical_gap.toml"}) files.push_back({name, told(name, values)});
   return files;
 }
 
@@ -61,8 +57,10 @@ void check_curve(const scene::PressureCurve& curve, const std::string& file, Con
       file, 0, 0, "pressure", found, "a peak of 10 MPa to 1 GPa that takes 0.1 ms or more to rise", {}});
 }
 
-/// Refuses what makes no scene, before anything is written.
+/// Refuses what makes no scene, before anything is written. The velocity is that of the shell as drawn, whose
+/// lengths the user has yet to write.
 void check_scene(const InitArguments& arguments, Json values, Console& console) {
+  values["velocity"] = "";
   if (arguments.curve)
     values["curve"] = scene::exact_toml({.kind = keys::KeyKind::text},
                                         std::filesystem::absolute(*arguments.curve).string());
@@ -110,6 +108,7 @@ void add_init(CLI::App& app, CommandLine& line) {
   add_read(command, "--calibre", read_calibre)->required();
   CLI::Option* curve = add(command, "--curve", init.curve);
   add_amount(command, "--peak", init.peak, parse_positive<Dimension::pressure>)->excludes(curve);
+  add_amount(command, "--velocity", init.velocity, parse_positive<Dimension::speed>);
   add_required(command, "-o,--output", init.output);
 }
 

@@ -67,8 +67,7 @@ Json gap_json(const GapRow& row) {
   Json object{{"gap_cm", report::shown_gap(row.gap->gap)},
               {"maximum", json(row.at_stations)},
               {"at_observation_points", json(row.at_points)},
-              {"ignition", nullptr},
-              {"sampling_error_K", row.gap->sampling_error}};
+              {"ignition", nullptr}};
   if (const auto& ignition = row.ignition)
     object["ignition"] = {{"ignition_cause", study::to_string(ignition->cause)},
                           {report::quantity::ignition_time.key(),
@@ -100,17 +99,16 @@ report::Table gap_table(const scene::Scene& scene, const run::CaseResult& result
   return table;
 }
 
-/// Why the result is no basis for a verdict: what is implausible and not accepted, the launch, what burns.
+/// Warnings of a case, each after its name and a colon; those of a gap that burns after the gap.
 std::vector<std::string> warnings_of(const scene::Scene& scene, const run::CaseResult& result) {
-  std::vector<std::string> warnings;
-  for (const scene::Implausible& each : scene::implausible_values(scene))
-    if (!each.accepted()) warnings.push_back(scene::validity_warning(each));
-  std::ranges::move(run::validity_warnings(scene, result.mechanics), std::back_inserter(warnings));
+  std::vector<std::string> texts;
+  for (const auto& warnings : {run::validity_warnings(scene, result.mechanics), run::launch_warnings(scene)})
+    for (const run::Warning& each : warnings) texts.push_back(each.name + ": " + each.text);
   for (const run::GapResult& gap : result.gaps)
     if (gap.combustion)
       for (const std::string& each : run::combustion_validity_warnings(scene, *gap.combustion))
-        warnings.push_back(fmt::format("gap {:.6g} cm: {}", 100.0 * gap.gap, each));
-  return warnings;
+        texts.push_back(fmt::format("gap {:.6g} cm: {}", 100.0 * gap.gap, each));
+  return texts;
 }
 
 /// For programs, in SI units but for the gaps (see the keys).
@@ -231,19 +229,16 @@ ExitCode perform(const RunArguments& arguments, Console& console) {
   Json object = case_json(scene, result);
   object["kinetics"] = report::kinetics_json(file);
   console.print_text(case_text(scene, result, object));
-  object["implausible"] = plausibility_json(scene);
   object["input_sha256"] = manifest.input_sha256;
   object["file"] = target.empty() ? Json(nullptr) : Json(target.string());
   console.print_json(object);
   const bool finite = std::ranges::all_of(
       result.gaps, [](const run::GapResult& gap) { return std::isfinite(gap.at_stations.temperature); });
-  if (!finite)
-    console.fail("a skin temperature is not a number; every verdict on it is indeterminate",
-                 ExitCode::indeterminate);
+  if (!finite) console.fail("a skin temperature is not a number", ExitCode::cases_failed);
   if (result.mechanics.status == run::RunStatus::completed) return ExitCode::done;
-  console.fail(fmt::format("the run ended early ({}): {}; every verdict on it is indeterminate",
-                           run::to_string(result.mechanics.status), result.mechanics.reason),
-               ExitCode::indeterminate);
+  console.fail(fmt::format("the run ended early ({}): {}", run::to_string(result.mechanics.status),
+                           result.mechanics.reason),
+               ExitCode::cases_failed);
 }
 
 }  // namespace

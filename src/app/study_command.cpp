@@ -15,7 +15,6 @@ struct StudyArguments {
   std::optional<double> memory;      ///< bytes of all running cases together
   std::optional<double> time_limit;  ///< s of wall time, of one case
   study::Shard shard;                ///< the part that is ours
-  std::optional<double> tolerance;   ///< K, of T max; picks a setting from the study's accuracy record
   std::optional<std::time_t> until;  ///< when it stops, with what it has
   bool dry_run = false;              ///< say what would be run, and run nothing
   bool update = false;               ///< the folder may hold the results of an earlier study
@@ -170,8 +169,7 @@ class StudySession {
     console_.failures(result.failures);
     console_.remark(report::timing_text(result.timing));
     write_files(result);
-    if (!result.failures.empty()) return ExitCode::cases_failed;
-    return result.indeterminate ? ExitCode::indeterminate : ExitCode::done;
+    return result.failures.empty() ? ExitCode::done : ExitCode::cases_failed;
   }
 
   void write_files(const kinds::StudyOutcome& result) {
@@ -235,10 +233,9 @@ ExitCode dry_run(const study::StudyFile& file, const StudyArguments& arguments, 
 }
 
 ExitCode perform(const StudyArguments& arguments, Console& console) {
-  const study::StudyFile file = console.value_of(kinds::read_study(arguments.study, {arguments.tolerance}));
+  const study::StudyFile file = console.value_of(kinds::read_study(arguments.study));
   if (arguments.output.empty() && !arguments.dry_run)
     console.refuse("--output is required unless with --dry-run" + usage_hint("study "));
-  if (!file.chosen_setting.empty()) console.remark("setting: " + file.chosen_setting);
   if (arguments.dry_run) return dry_run(file, arguments, console);
   const int jobs = arguments.jobs > 0 ? arguments.jobs : study::available_cores();
   const study::StudyOptions options = options_of(arguments, jobs, nullptr);
@@ -280,7 +277,7 @@ ExitCode refuse_without(const Json& missing, Console& console) {
 }
 
 ExitCode perform(const MergeArguments& arguments, Console& console) {
-  const study::StudyFile file = console.value_of(kinds::read_study(arguments.study, {arguments.tolerance}));
+  const study::StudyFile file = console.value_of(kinds::read_study(arguments.study));
   study::StudyOptions options;
   options.jobs = arguments.jobs > 0 ? arguments.jobs : study::available_cores();
   options.stop = &stop_requested();
@@ -307,7 +304,6 @@ void add_study(CLI::App& app, CommandLine& line) {
              [](const std::string& text) { return report::next_clock_time(text, std::time(nullptr)); });
   add_read(command, "--shard",
            [&shard = study.shard](const std::string& text) { return study::parse_shard(text, shard); });
-  add_amount(command, "--tolerance", study.tolerance, parse_positive<Dimension::temperature_difference>);
   add(command, "--dry-run", study.dry_run);
   add(command, "--update", study.update);
 }
@@ -318,7 +314,6 @@ void add_merge(CLI::App& app, CommandLine& line) {
   add_required(command, "-o,--output", merge.output);
   add(command, "folder", merge.folders);
   add(command, "--update", merge.update);
-  add_amount(command, "--tolerance", merge.tolerance, parse_positive<Dimension::temperature_difference>);
   add_jobs(command, merge.jobs);
 }
 

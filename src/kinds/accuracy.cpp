@@ -4,190 +4,246 @@
 #include "study_keys.hpp"
 
 namespace launchsafe::kinds {
-
-using study::RecordedSetting, study::ReferenceValue;
-
 namespace {
 
-std::vector<double> errors_against(const std::vector<ReferenceValue>& references,
-                                   const std::vector<double>& values) {
-  std::vector<double> errors;
-  for (std::size_t i = 0; i < references.size(); ++i)
-    errors.push_back(error_against(references[i], values[i]));
-  return errors;
+// --- settings ---
+
+/// The keys that make a computation finer or coarser, with their values.
+using Setting = std::map<std::string, Value>;
+
+bool belongs_to_setting(const std::string& key) {
+  return (key.starts_with("numerics.") && key != "numerics.energy_drift_limit") ||
+         key == "output.trace_interval";
+}
+
+Setting setting_of(const Scene& scene) {
+  Setting setting;
+  for (const auto& key : scene::scene_keys())
+    if (belongs_to_setting(key.name)) setting[key.name] = key.get(scene);
+  return setting;
+}
+
+/// Equal but for the round-off of units: 0.25 cm is not always 2.5 mm to the last digit.
+bool same_setting(const Setting& a, const Setting& b) {
+  return std::ranges::equal(a, b, [](const auto& x, const auto& y) {
+    return x.first == y.first && study::same_value(x.second, y.second);
+  });
+}
+
+/// Whether two scenes differ in more than their settings.
+bool differ_in_model(Scene scene, const Scene& own) {
+  for (const auto& key : scene::scene_keys())
+    if (belongs_to_setting(key.name)) key.set(scene, key.get(own));
+  return scene::to_toml(scene) != scene::to_toml(own);
+}
+
+// --- numerics that are not exact ---
+
+/// Numerics that make no error at one value. All others leave none in the limit of ever finer cells.
+const Setting exact_values{{"numerics.damping_time", 0.0}, {"numerics.growth_r", 1.0},
+                           {"numerics.growth_x", 1.0},     {"numerics.inertial_scaling", 1.0},
+                           {"numerics.pic_fraction", 0.0}, {"numerics.selective_inertia", 1.0}};
+
+/// Limits that two values point to are as far off as three times their difference (see math::Extrapolation).
+constexpr double widening = 3.0;
+
+using RowPair = std::pair<const AccuracyRow*, const AccuracyRow*>;
+
+/// A key at which the reference meshes are not exact, and the settings that differ in it alone, one having
+/// the meshes' value and one the exact one.
+struct InexactKey {
+  std::string key;
+  std::vector<RowPair> pairs;
+};
+
+std::vector<InexactKey> inexact_keys(const AccuracyResult& result) {
+  std::vector<Setting> settings;
+  for (const StudyCase& each : result.study.cases) settings.push_back(setting_of(each.scene.scene));
+  const std::vector<AccuracyRow>& rows = result.rows;
+  std::vector<InexactKey> inexact;
+  for (const auto& [key, exact] : exact_values) {
+    const Value& own = settings.front().at(key);
+    if (study::same_value(own, exact)) continue;
+    inexact.push_back({key, {}});
+    for (std::size_t i = 0; i < rows.size(); ++i) {
+      if (!rows[i].comparable() || !study::same_value(settings[i].at(key), own)) continue;
+      Setting wanted = settings[i];
+      wanted[key] = exact;
+      for (std::size_t j = 0; j < rows.size(); ++j)
+        if (rows[j].comparable() && same_setting(settings[j], wanted))
+          inexact.back().pairs.emplace_back(&rows[i], &rows[j]);
+    }
+  }
+  return inexact;
+}
+
+double larger_bound(double a, double b) {  // NaN, which is no bound, wins
+  return std::isnan(a) || std::isnan(b) ? not_a_number : std::max(a, b);
+}
+
+// --- the reference ---
+
+/// Of a quantity of the reference meshes, which are the first rows, finest first.
+template <class Quantity>
+ReferenceValue reference_value(std::span<const AccuracyRow> meshes, const std::vector<InexactKey>& inexact,
+                               Quantity quantity) {
+  ReferenceValue reference;
+  reference.values = of_each(meshes, quantity);
+  reference.limit = math::extrapolate(reference.values, of_each(meshes, &AccuracyRow::cell));
+  if (!math::all_finite(reference.values)) reference.values.clear();
+  for (const InexactKey& each : inexact) {
+    double largest = each.pairs.empty() ? not_a_number : 0.0;
+    for (const auto& [one, other] : each.pairs)
+      largest = larger_bound(largest, std::abs(std::invoke(quantity, *one) - std::invoke(quantity, *other)));
+    reference.inexactness += widening * largest;
+  }
+  return reference;
+}
+
+AccuracyReference reference_of(const AccuracyResult& result, std::size_t meshes,
+                               const std::vector<bool>& inert) {
+  const std::span<const AccuracyRow> finest_first(result.rows.data(), meshes);
+  const std::vector<InexactKey> inexact = inexact_keys(result);
+  AccuracyReference reference;
+  for (std::size_t gap = 0; gap < inert.size(); ++gap)
+    reference.temperature.push_back(reference_value(
+        finest_first, inexact, [gap](const AccuracyRow& row) { return row.temperature[gap]; }));
+  reference.critical_gap = reference_value(finest_first, inexact, &AccuracyRow::critical_gap);
+  reference.inert = inert;
+  for (const InexactKey& each : inexact)
+    if (each.pairs.empty()) reference.unvaried.push_back(each.key);
+  return reference;
+}
+
+double error_against(const ReferenceValue& reference, double value) {
+  return reference.values.empty() ? not_a_number : value - reference.limit.value;
+}
+
+double bound_against(const ReferenceValue& reference, double value) {
+  if (reference.values.empty()) return not_a_number;
+  return std::abs(value - reference.values.front()) + reference.limit.uncertainty + reference.inexactness;
 }
 
 void find_errors(const AccuracyReference& reference, AccuracyRow& row) {
-  row.temperature_error = errors_against(reference.temperature, row.setting.temperature);
-  row.largest_temperature_error = 0.0;
-  for (const double error : row.temperature_error)
-    row.largest_temperature_error = study::larger_bound(row.largest_temperature_error, std::abs(error));
-  row.critical_gap_error = error_against(reference.critical_gap, row.setting.critical_gap);
+  row.largest_temperature_error = row.temperature_bound = 0.0;
+  for (std::size_t gap = 0; gap < reference.temperature.size(); ++gap) {
+    const double value = row.temperature[gap];
+    row.temperature_error.push_back(error_against(reference.temperature[gap], value));
+    row.largest_temperature_error =
+        larger_bound(row.largest_temperature_error, std::abs(row.temperature_error.back()));
+    row.temperature_bound =
+        larger_bound(row.temperature_bound, bound_against(reference.temperature[gap], value));
+  }
+  row.critical_gap_error = error_against(reference.critical_gap, row.critical_gap);
+  row.critical_gap_bound = bound_against(reference.critical_gap, row.critical_gap);
 }
 
-/// What a run came to and what it cost, without comparing it.
+// --- the rows ---
+
+/// The result of a run and its cost, without comparing it.
 AccuracyRow measure(const Study& study, const StudyCase& input, const std::vector<FinishedRun>& runs) {
-  const Scene& scene = input.scene.scene;
   AccuracyRow row;
-  row.setting.label = input.label;
-  row.setting.setting = study::setting_of(scene);
-  row.answer = answer_from(study, input, runs);
+  row.label = input.label;
+  row.result = study::draw_row(study, input, runs);
   if (!runs.front().has_result()) return row;
-  const MechanicsResult& mechanics = runs.front().result.mechanics;
-  const scene::CellRange mesh = scene::cells_of_charge(scene);
-  row.setting.cell = std::sqrt(mesh.shortest_x * mesh.shortest_r);
-  row.setting.processor_time = mechanics.work_time();
-  if (!row.computed()) return row;
-  for (const FinishedRun& run : runs)
-    if (row.validity_warnings.empty())
-      row.validity_warnings =
-          fmt::format("{}", fmt::join(run::validity_warnings(scene, run.result.mechanics), "; "));
+  const scene::CellRange mesh = scene::cells_of_charge(input.scene.scene);
+  row.cell = std::sqrt(mesh.shortest_x * mesh.shortest_r);
+  row.processor_time = runs.front().result.mechanics.work_time();
   return row;
 }
 
 void run_settings(AccuracyResult& result, const StudyOptions& options) {
-  std::vector<std::pair<VariantAccuracy*, std::size_t>> places;  // of every case of the study
-  for (VariantAccuracy& variant : result.variants) {
-    variant.rows.resize(variant.study.cases.size());
-    for (std::size_t i = 0; i < variant.rows.size(); ++i) places.emplace_back(&variant, i);
-  }
+  result.rows.resize(result.study.cases.size());
   run_every_case(result.study, options, result.timing, [&](std::size_t i, std::vector<FinishedRun>& runs) {
-    const auto& [variant, place] = places[i];
-    variant->rows[place] = measure(variant->study.study, variant->study.cases[place], runs);
+    result.rows[i] = measure(result.study.study, result.study.cases[i], runs);
   });
 }
 
 /// A gap at which any sound setting of the same model ignites is compared by a skin that does not react:
 /// after ignition T max is that of the flame.
-std::vector<bool> inert_gaps(const VariantAccuracy& variant) {
-  std::vector<bool> inert(variant.study.study.gaps.size(), false);
-  for (const AccuracyRow& row : variant.rows) {
-    if (row.other_model || !row.sound()) continue;
+std::vector<bool> inert_gaps(const AccuracyResult& result) {
+  std::vector<bool> inert(result.study.study.gaps.size(), false);
+  for (const AccuracyRow& row : result.rows) {
+    if (!row.comparable()) continue;
     for (std::size_t gap = 0; gap < inert.size(); ++gap)
-      inert[gap] = inert[gap] || row.answer.verdicts[gap].ignition;
+      inert[gap] = inert[gap] || row.result.gaps[gap].ignition;
   }
   return inert;
 }
 
-void tell_apart(VariantAccuracy& variant, std::size_t meshes) {
-  const StudyFile& study = variant.study;
-  const study::Setting own = study::setting_of(study.scene.scene);
-  for (std::size_t i = 0; i < study.cases.size(); ++i) {
-    AccuracyRow& row = variant.rows[i];
-    row.setting.reference = i < meshes;
-    // Where it differs from the study's scene in more than a setting.
-    row.other_model = std::ranges::any_of(
-        study::differences(study.cases[i].scene.scene, study.scene.scene),
-        [](const study::Difference& each) { return !study::belongs_to_setting(each.key); });
-    row.baseline = !row.other_model && study::same_setting(row.setting.setting, own);
+void tell_apart(AccuracyResult& result, std::size_t meshes) {
+  const Scene& own = result.study.scene.scene;
+  for (std::size_t i = 0; i < result.rows.size(); ++i) {
+    AccuracyRow& row = result.rows[i];
+    const Scene scene = result.study.cases[i].scene.scene;
+    row.reference_mesh = i < meshes;
+    row.other_model = differ_in_model(scene, own);
+    row.baseline = !row.other_model && same_setting(setting_of(scene), setting_of(own));
   }
 }
 
 /// What is compared of every row: T max, at inert gaps of a skin that does not react, and the critical gap.
 /// The temperature of a flame is none: how far that is off says nothing.
-void fill_settings(const std::vector<bool>& inert, std::vector<AccuracyRow>& rows) {
+void fill_values(const std::vector<bool>& inert, std::vector<AccuracyRow>& rows) {
   for (AccuracyRow& row : rows) {
     if (!row.computed()) continue;
-    row.setting.critical_gap = row.answer.critical.value;
+    const CriticalGap& critical = row.result.critical;
+    if (critical.kind == CriticalGapKind::value) row.critical_gap = critical.value;
     for (std::size_t gap = 0; gap < inert.size(); ++gap) {
-      const bool burns = !inert[gap] && row.answer.verdicts[gap].ignition;
-      row.setting.temperature.push_back(burns ? not_a_number : temperature_of(row.answer, gap, inert[gap]));
+      const GapRow& of_gap = row.result.gaps[gap];
+      row.temperature.push_back(inert[gap]        ? of_gap.heated
+                                : of_gap.ignition ? not_a_number
+                                                  : of_gap.maximum.temperature);
     }
   }
 }
 
-/// Whether its temperatures are such as explosives have.
-bool is_usual(const RecordedSetting& setting) {
-  return std::ranges::all_of(setting.temperature,
-                             [](double kelvin) { return kelvin <= study::highest_recorded_temperature; });
-}
-
-/// Of the sound settings of the same model; none that has temperatures which nothing has.
-study::AccuracyRecord record_of(const VariantAccuracy& variant) {
-  const Scene& scene = variant.study.scene.scene;
-  study::AccuracyRecord record;
-  record.title = variant.study.study.title;
-  record.scene = scene;
-  scene::clear_remarks(record.scene);
-  record.scene.accepted.clear();
-  record.scene.surface.gaps = variant.study.study.gaps;
-  for (const AccuracyRow& row : variant.rows) {
-    const RecordedSetting& setting = row.setting;
-    // 0.25 cm is not always 2.5 mm to the last digit.
-    const bool known = std::ranges::any_of(record.settings, [&](const RecordedSetting& each) {
-      return study::same_setting(each.setting, setting.setting);
-    });
-    if (row.sound() && !row.other_model && is_usual(setting) && !known) record.settings.push_back(setting);
-  }
-  find_bounds(record);
-  return record;
-}
-
-void compare(VariantAccuracy& variant) {
-  const std::size_t meshes = settings_of<AccuracySettings>(variant.study).reference_cell_sizes.size();
-  const std::span<const AccuracyRow> finest_first(variant.rows.data(), meshes);
-  for (const AccuracyRow& mesh : finest_first) {
+void compare(AccuracyResult& result) {
+  const std::size_t meshes = settings_of<AccuracySettings>(result.study).reference_cell_sizes.size();
+  for (std::size_t i = 0; i < meshes; ++i) {
+    const AccuracyRow& mesh = result.rows[i];
     if (mesh.sound()) continue;
-    variant.no_reference = fmt::format(
-        "the reference mesh {} {}", mesh.setting.label,
-        mesh.computed() ? "has a validity warning: " + mesh.validity_warnings : mesh.answer.failure);
+    result.no_reference =
+        fmt::format("the reference mesh {} {}", mesh.label,
+                    mesh.computed() ? "has a validity warning: " + mesh.warnings() : mesh.result.failure);
     return;
   }
-  tell_apart(variant, meshes);
-  const std::vector<bool> inert = inert_gaps(variant);
-  fill_settings(inert, variant.rows);
-  for (const AccuracyRow& mesh : finest_first) {
-    if (is_usual(mesh.setting)) continue;
-    variant.no_reference = fmt::format("the reference mesh {} has no temperature, or one above {:.0f} K",
-                                       mesh.setting.label, study::highest_recorded_temperature);
-    return;
-  }
-  variant.record = record_of(variant);
-  variant.reference = AccuracyReference{study::reference_of(variant.record), inert};
-  for (AccuracyRow& row : variant.rows) {
-    if (!row.computed()) continue;
-    find_bounds(*variant.reference, row.setting);
-    find_errors(*variant.reference, row);
-  }
+  tell_apart(result, meshes);
+  const std::vector<bool> inert = inert_gaps(result);
+  fill_values(inert, result.rows);
+  result.reference = reference_of(result, meshes, inert);
+  for (AccuracyRow& row : result.rows)
+    if (row.computed()) find_errors(*result.reference, row);
 }
 
 }  // namespace
 
-bool VariantAccuracy::any_indeterminate() const {
-  return !reference || std::ranges::any_of(reference->temperature, [](const ReferenceValue& value) {
-    return !value.limit.justified;
-  });
+std::string AccuracyRow::warnings() const {
+  std::vector<std::string> texts;
+  for (const study::Remark& each : result.warnings)
+    if (!each.acceptable) texts.push_back(each.text);
+  return fmt::format("{}", fmt::join(texts, "; "));
 }
 
-const AccuracyRow* VariantAccuracy::baseline() const {
+const AccuracyRow* AccuracyResult::baseline() const {
   for (const AccuracyRow& row : rows)
     if (row.baseline && row.sound()) return &row;
   return nullptr;
 }
 
-double VariantAccuracy::reference_uncertainty() const {
+double AccuracyResult::reference_uncertainty() const {
   double largest = reference ? 0.0 : not_a_number;
   if (reference)
     for (const ReferenceValue& value : reference->temperature)
-      largest = study::larger_bound(largest, value.limit.uncertainty + value.inexactness);
+      largest = larger_bound(largest, value.limit.uncertainty + value.inexactness);
   return largest;
-}
-
-bool AccuracyResult::any_indeterminate() const {
-  return std::ranges::any_of(variants, [](const VariantAccuracy& each) { return each.any_indeterminate(); });
 }
 
 AccuracyResult run_accuracy(const StudyFile& study, const StudyOptions& options) {
   return run_timed<AccuracyResult>(
-      study, options,
+      study, options, [&](AccuracyResult& result) { run_settings(result, options); },
       [&](AccuracyResult& result) {
-        for (const AccuracyVariant& each : settings_of<AccuracySettings>(study).variants)
-          result.variants.push_back({each.name, each.study});
-        if (result.variants.empty()) result.variants.push_back({{}, study});
-        run_settings(result, options);
-      },
-      [&](AccuracyResult& result) {
-        if (options.shard.whole()) std::ranges::for_each(result.variants, compare);
+        if (options.shard.whole()) compare(result);
       });
 }
 

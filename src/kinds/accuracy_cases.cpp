@@ -1,4 +1,4 @@
-// A study of kind accuracy as a file: reference meshes, settings, variants, and the cases that follow.
+// A study of kind accuracy as a file: reference meshes, settings, and the cases that follow.
 #include "launchsafe/kinds/accuracy.hpp"
 #include "launchsafe/scene/plan.hpp"
 #include "study_keys.hpp"
@@ -115,8 +115,8 @@ void read_settings(const toml::table& root, StudyFile& study) {
   check_setting_count(study);
 }
 
-void make_setting_cases(const toml::table& root, StudyFile& study) {
-  read_settings(root, study);
+void make_accuracy_cases(const StudySource& source, StudyFile& study) {
+  read_settings(source.root, study);
   const AccuracySettings settings = own(study);
   KnownScenes known;
   for (const double size : settings.reference_cell_sizes)
@@ -124,81 +124,6 @@ void make_setting_cases(const toml::table& root, StudyFile& study) {
   check_reference_grids(study);
   add_case(study, {}, known);
   for (const std::vector<SettingsAxis>& block : settings.settings) add_block(study, block, {}, known);
-}
-
-// --- variants ---
-
-constexpr const char* variant_key = "variant";
-
-/// Moves the values of a table into another one, into tables of the same name there; whatever else has the
-/// name goes. Moved values still know their place in the file, copied ones do not.
-void move_into(toml::table& to, toml::table& from) {
-  for (auto&& [key, node] : from) {
-    toml::table* inner = to.get_as<toml::table>(key.str());
-    if (inner != nullptr && node.is_table())
-      move_into(*inner, *node.as_table());
-    else
-      to.insert_or_assign(key.str(), std::move(node));
-  }
-}
-
-/// The name of a variant, of which the name of a file is made.
-std::string name_of_variant(const toml::table& table, StudyFile& study) {
-  constexpr const char* allowed = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_.-";
-  constexpr std::size_t longest = 64;
-  const toml::node* node = table.get("name");
-  const std::string name = node ? node->value_or(std::string{}) : std::string{};
-  const Place place = scene::place_of(node ? *node : table, study.file);
-  if (name.empty() || name.size() > longest || name.find_first_not_of(allowed) != std::string::npos)
-    throw error_at(place, "variant.name", node ? found_text(*node) : "no name",
-                   fmt::format("up to {} letters, digits, \"_\", \".\" and \"-\"", longest));
-  if (keys::find_named(own(study).variants, name) != nullptr)
-    throw error_at(place, "variant.name", fmt::format("\"{}\" a second time", name),
-                   "a name that no other variant has");
-  return name;
-}
-
-/// What the file says of all variants, with what the variant of that number says otherwise in its place.
-void add_variant(const StudySource& source, std::size_t index, StudyFile& study) {
-  toml::table root = taken(scene::parse_toml(source.text, study.file));
-  toml::table table = std::move(*root.get_as<toml::array>(variant_key)->get_as<toml::table>(index));
-  root.erase(variant_key);
-  const std::string name = name_of_variant(table, study);
-  table.erase("name");
-  for (const char* common : {"kind", variant_key})
-    if (const toml::node* node = table.get(common))
-      throw error_at(scene::place_of(*node, study.file), fmt::format("variant.{}", common), found_text(*node),
-                     "keys of a study that variants may have otherwise");
-  move_into(root, table);
-  StudyFile variant =
-      taken(read_study_table({root, source.text, source.folder, source.tolerance}, study.file,
-                             study.most_cases - std::min(study.most_cases, study.cases.size())));
-  for (StudyCase each : variant.cases) {
-    each.label = name + ": " + each.label;
-    study.cases.add(std::move(each));
-  }
-  study.records.insert(study.records.end(), variant.records.begin(), variant.records.end());
-  study.records.push_back(store::sha256(scene::to_toml(variant.scene.scene)));
-  own(study).variants.push_back({name, std::move(variant)});
-}
-
-/// Those of the file; none where it is one study by itself.
-std::vector<const toml::table*> variants_of(const StudySource& source, const StudyFile& study) {
-  constexpr const char* allowed = "tables, each written [[variant]], with a name and what it has otherwise";
-  const auto tables = taken(scene::tables_of(source.root, variant_key, study.file, allowed));
-  if (const toml::node* node = source.root.get(variant_key); node != nullptr && tables.empty())
-    throw error_at(scene::place_of(*node, study.file), variant_key, "no variant", allowed);
-  return tables;
-}
-
-void make_accuracy_cases(const StudySource& source, StudyFile& study) {
-  const std::size_t variants = variants_of(source, study).size();
-  if (variants == 0) return make_setting_cases(source.root, study);
-  for (std::size_t i = 0; i < variants; ++i) add_variant(source, i, study);
-  // The first is the study's own.
-  const StudyFile& first = own(study).variants.front().study;
-  study.scene = first.scene;
-  study.overrides = first.overrides;
 }
 
 const std::vector<Key<AccuracySettings>> accuracy_keys{
@@ -210,10 +135,8 @@ const std::vector<Key<AccuracySettings>> accuracy_keys{
 
 std::vector<Failure> accuracy_failures(const AccuracyResult& result) {
   std::vector<Failure> failures;
-  std::size_t index = 0;
-  for (const VariantAccuracy& variant : result.variants)
-    for (const AccuracyRow& row : variant.rows)
-      add_failure(failures, result.study.cases.label(index++), row.answer);
+  for (std::size_t i = 0; i < result.rows.size(); ++i)
+    add_failure(failures, result.study.cases.label(i), result.rows[i].result);
   return failures;
 }
 
@@ -221,9 +144,9 @@ std::vector<Failure> accuracy_failures(const AccuracyResult& result) {
 
 Kind accuracy_kind() {
   return {
-      .traits = {.name = "accuracy", .gives_verdicts = false, .bounds_critical_gaps = false},
-      .keys = joined({gaps_keys(), judging_keys(), own_keys(accuracy_keys)}),
-      .tables = {{"settings", {}}, {variant_key, {}}},
+      .traits = {.name = "accuracy", .gives_verdicts = false},
+      .keys = joined({gaps_keys(), search_keys(), own_keys(accuracy_keys)}),
+      .tables = {{"settings", {}}},
       .make_cases = make_accuracy_cases,
       .run = outcome_of<run_accuracy, accuracy_failures>,
       .results = accuracy_results,

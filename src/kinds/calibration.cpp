@@ -155,7 +155,9 @@ struct Trials {
   void check(const study::CaseRun& asked, const Scene& scene) {
     FinishedRun& run = finished.at(asked.hash);
     std::vector<std::string> warnings;
-    if (run.failure.empty()) warnings = run::validity_warnings(scene, run.result.mechanics);
+    if (run.failure.empty())
+      for (const run::Warning& each : run::validity_warnings(scene, run.result.mechanics))
+        if (!run::is_acceptable(each.name)) warnings.push_back(each.text);
     if (!warnings.empty()) run.failure = fmt::format("validity warning: {}", fmt::join(warnings, "; "));
     if (run.failure.empty()) return;
     result.label = asked.label;
@@ -320,7 +322,6 @@ Constants constants_of(const CalibrationResult& result, const SceneFile& trial) 
   constants.range = settings.range;
   std::erase_if(constants.range, [](const auto& interval) { return interval.second.empty(); });
   constants.scene = file.scene;
-  constants.scene.accepted.clear();
   return constants;
 }
 

@@ -7,18 +7,18 @@ using study::CaseRun, study::CaseRuns, study::Confirmation, study::PlannedRun, s
 
 namespace {
 
-/// Of so many cases at the most a study is in detail (Study::in_detail): histories are kept, and
-/// coupled runs confirm the critical gap unless the study says otherwise. A study of more
-/// cases keeps their answers alone, unless it asks for confirmation.
+/// A study of at most this many cases is in detail (Study::in_detail): histories are kept, and coupled runs
+/// confirm the critical gap unless the study says otherwise. A study of more cases keeps their rows alone,
+/// unless it asks for confirmation.
 constexpr std::size_t most_cases_in_detail = 6;
 
 /// The coupled run that confirms a gap (m) of a case: "496 MPa, 30 µm, 1 mm, coupled at 0.04 cm". Journals
 /// of stored studies name it so.
-std::string label_with_skin(const CaseOutcome& outcome, double gap) {
-  return fmt::format("{}, coupled at {}", outcome.input.label, centimetres(gap));
+std::string label_with_skin(const CaseInDetail& of_case, double gap) {
+  return fmt::format("{}, coupled at {}", of_case.input.label, centimetres(gap));
 }
 
-void take_confirmation(const CaseOutcome& outcome, const FinishedRun& run, Confirmation& confirmation) {
+void take_confirmation(const FinishedRun& run, Confirmation& confirmation) {
   confirmation.ran = true;
   confirmation.outcome = run.outcome;
   confirmation.failure = run.failure;
@@ -35,10 +35,6 @@ void take_confirmation(const CaseOutcome& outcome, const FinishedRun& run, Confi
   confirmation.completed = true;
   confirmation.ignited = gaps.front().skin.ignition.has_value();
   confirmation.maximum_temperature = gaps.front().at_stations.temperature;
-  const run::GapResult traced =
-      run::evaluate_gap(outcome.input.scene.scene, outcome.result.mechanics.trace, confirmation.gap);
-  if (!confirmation.ignited && !traced.skin.ignition)
-    confirmation.difference = confirmation.maximum_temperature - traced.at_stations.temperature;
 }
 
 /// Coupled runs that confirm what launches show, and what takes each.
@@ -47,18 +43,16 @@ struct FollowingRuns {
   std::vector<PlannedRun> runs = {};
   std::vector<Taker> takers = {};
 
-  /// On both sides of its bracket.
-  void add_confirmations(CaseOutcome& outcome) {
-    if (outcome.critical.kind != CriticalGapKind::value) return;
-    outcome.confirmations = {{.gap = outcome.critical.lower},
-                             {.gap = outcome.critical.upper, .expected_ignition = true}};
-    for (std::size_t side = 0; side < 2; ++side) {
-      const double gap = outcome.confirmations[side].gap;
-      runs.push_back(
-          planned_run(study::skin_run(outcome.input.scene.scene, gap, label_with_skin(outcome, gap))));
-      takers.push_back([&outcome, side](const FinishedRun& finished) {
-        take_confirmation(outcome, finished, outcome.confirmations[side]);
-      });
+  /// On both sides of its critical gap.
+  void add_confirmations(CaseInDetail& of_case) {
+    const CriticalGap& critical = of_case.critical;
+    if (critical.kind != CriticalGapKind::value) return;
+    of_case.confirmations = {{.gap = std::max(0.0, critical.value - confirm_distance)},
+                             {.gap = critical.value + confirm_distance, .expected_ignition = true}};
+    for (Confirmation& each : of_case.confirmations) {
+      runs.push_back(planned_run(
+          study::skin_run(of_case.input.scene.scene, each.gap, label_with_skin(of_case, each.gap))));
+      takers.push_back([&each](const FinishedRun& finished) { take_confirmation(finished, each); });
     }
   }
 };
@@ -76,35 +70,32 @@ void run_in_detail(CriticalGapResult& result, const StudyOptions& options) {
           static_cast<double>(study.confirmations_per_case * each.members.size()) * each.runs.front().cost;
   tracker.expect(0, foreseen);
   run_cases(runs, options, tracker, result.timing, [&](std::size_t i, std::vector<FinishedRun>& finished) {
-    for (const std::size_t member : runs[i].members) {
-      result.details[member] = outcome_from(study.study, study.cases[member], finished);
-      result.details[member].hash = finished.front().hash;
-    }
+    for (const std::size_t member : runs[i].members)
+      result.details[member] = draw_case(study.study, study.cases[member], finished);
   });
   FollowingRuns following;
   if (confirm)
-    std::ranges::for_each(result.details, [&](CaseOutcome& each) { following.add_confirmations(each); });
+    std::ranges::for_each(result.details, [&](CaseInDetail& each) { following.add_confirmations(each); });
   tracker.begin(study::Phase::following_runs);
   tracker.expect(0, -foreseen);
   run_each(std::move(following.runs), options, tracker, result.timing,
            [&](std::size_t i, const FinishedRun& finished) { following.takers[i](finished); });
   tracker.begin(study::Phase::report);
-  for (CaseOutcome& outcome : result.details) {
-    apply_confirmations(study.study, outcome);
-    conclude(study.study, outcome);
-    result.answers.push_back(answer_of(outcome));
+  for (CaseInDetail& each : result.details) {
+    apply_confirmations(each);
+    result.rows.push_back(each);
   }
 }
 
-/// Of many cases the answers alone.
+/// Of many cases the rows alone.
 void run_many(CriticalGapResult& result, const StudyOptions& options) {
   ProgressTracker tracker(options.progress);
-  result.answers = answer_cases(result.study, options, result.timing, tracker);
+  result.rows = draw_rows(result.study, options, result.timing, tracker);
 }
 
 const std::vector<Key<CriticalGapSettings>> critical_gap_keys{
     flag_key("confirm", Standing::assumed,
-             fmt::format("Coupled runs on both sides of the bracket: the skin in the mechanics, and on "
+             fmt::format("Coupled runs on both sides of the critical gap: the skin in the mechanics, and on "
                          "through combustion. Of a study with more than {} cases it is false unless stated.",
                          most_cases_in_detail),
              &CriticalGapSettings::confirm),
@@ -122,22 +113,13 @@ void make_critical_gap_cases(const StudySource& source, StudyFile& study) {
 
 std::vector<Failure> critical_gap_failures(const CriticalGapResult& result) {
   std::vector<Failure> failures = failures_of(result);
-  for (const CaseOutcome& each : result.details)
+  for (const CaseInDetail& each : result.details)
     for (const study::Confirmation& confirmation : each.confirmations)
       add_failure(failures, label_with_skin(each, confirmation.gap), confirmation);
   return failures;
 }
 
 }  // namespace
-
-bool CriticalGapResult::any_indeterminate() const {
-  return std::ranges::any_of(answers, [](const CaseAnswer& answer) {
-    return answer.critical.kind == CriticalGapKind::indeterminate ||
-           std::ranges::any_of(answer.verdicts, [](const GapVerdict& row) {
-             return row.judgement.verdict == Verdict::indeterminate;
-           });
-  });
-}
 
 CriticalGapResult run_critical_gap(const StudyFile& study, const StudyOptions& options) {
   return run_timed<CriticalGapResult>(study, options, [&](CriticalGapResult& result) {
@@ -147,9 +129,9 @@ CriticalGapResult run_critical_gap(const StudyFile& study, const StudyOptions& o
 
 Kind critical_gap_kind() {
   return {
-      .traits = {.name = "critical-gap", .keeps_answers = true},
-      .keys = joined({reference_keys(), gaps_keys(), own_keys(critical_gap_keys), judging_keys(),
-                      uncertainty_keys(), models_keys()}),
+      .traits = {.name = "critical-gap"},
+      .keys =
+          joined({reference_keys(), gaps_keys(), search_keys(), own_keys(critical_gap_keys), verdict_keys()}),
       .tables = {reference_table(), vary_table()},
       .varies = {.values = true},
       .make_cases = make_critical_gap_cases,

@@ -1,35 +1,12 @@
-// What a critical-gap study in detail has besides: coupled runs, answers on other terms, causes, fits, runs.
+// What a critical-gap study in detail has besides: coupled runs, causes, fits, runs.
 #include "critical_gap_tables.hpp"
 #include "launchsafe/report/case_tables.hpp"
 
 namespace launchsafe::kinds {
 
-using study::AsCalibrated, study::Confirmation, study::Line, study::ModelGap;
+using study::Confirmation, study::Line;
 
 namespace {
-
-/// One gap of a case with one constant as calibrated.
-struct CalibratedRow {
-  const CaseOutcome* outcome;
-  const GapVerdict* gap;
-  const AsCalibrated* constant;
-};
-
-const Quantities<CalibratedRow> calibrated_quantities{
-    {quantity::case_name, &CalibratedRow::outcome, &CaseOutcome::input, &StudyCase::label},
-    {quantity::gap, &CalibratedRow::gap, &GapVerdict::gap},
-    {quantity::verdict, &CalibratedRow::gap, &GapVerdict::judgement, &study::Judgement::verdict},
-    {"key", "constant", text(), "The constant that is put back.",
-     [](const CalibratedRow& row) {
-       return row.constant->key.empty() ? "all of gap and friction" : row.constant->key;
-     }},
-    {quantity::temperature_max,
-     [](const CalibratedRow& row) { return report::known(row.gap->maximum.temperature); }},
-    {"temperature_max_as_calibrated", "T max, as calibrated", fixed(1, kelvin),
-     "Highest temperature with that constant as calibrated.", &CalibratedRow::constant,
-     &AsCalibrated::temperature},
-    {"ignites", "ignites then", text(), "Whether the gap ignites with it.", &CalibratedRow::constant,
-     &AsCalibrated::ignites}};
 
 std::string ignition_word(bool ignites) { return ignites ? "ignites" : "does not ignite"; }
 
@@ -37,12 +14,13 @@ std::string outcome_word(const Confirmation& each) {
   return each.completed ? ignition_word(each.ignited) : "failed";
 }
 
-const Quantities<CaseOutcome> case_quantities{{quantity::case_name, &CaseOutcome::input, &StudyCase::label}};
+const Quantities<CaseInDetail> name_quantities{
+    {quantity::case_name, &CaseInDetail::input, &StudyCase::label}};
 
 const auto coupled_quantities = with_whole(
-    case_quantities,
+    name_quantities,
     Quantities<Confirmation>{{quantity::gap, &Confirmation::gap},
-                             {"expected", "expected", text(), "What the bracket says of the gap.",
+                             {"expected", "expected", text(), "Whether the critical gap lies below the gap.",
                               [](const Confirmation& run) { return ignition_word(run.expected_ignition); }},
                              {"outcome", "outcome", text(), "What the coupled run did.", outcome_word},
                              {quantity::temperature_max,
@@ -50,7 +28,7 @@ const auto coupled_quantities = with_whole(
                              {quantity::reason, &Confirmation::failure}});
 
 const auto line_quantities = with_whole(
-    case_quantities,
+    name_quantities,
     Quantities<Line>{
         {"line", "line", text(), "Which line it is.", &Line::name},
         {"slope", "slope", fixed(1, keys::kelvin_per_centimetre), "Rise of T max over the gap.",
@@ -62,74 +40,39 @@ const auto line_quantities = with_whole(
          "Standard error of the intercept by least squares.", &Line::intercept_error},
         {"rms", "RMS", fixed(2, kelvin), "Root mean square of the residuals.", &Line::root_mean_square}});
 
-const auto model_rows = with_whole(
-    case_quantities,
-    Quantities<ModelGap>{{"model", "constants", text(), "Other constants of the launch.", &ModelGap::name},
-                         {"critical_gap_of_model", "critical gap", text(), "Critical gap under them.",
-                          [](const ModelGap& model) { return report::gap_text(model.critical_gap); }},
-                         {quantity::reason, &ModelGap::failure}});
-
-Table as_calibrated_table(const CriticalGapResult& result) {
-  std::vector<CalibratedRow> rows;
-  for (const CaseOutcome& outcome : result.details)
-    for (const GapVerdict& gap : outcome.verdicts)
-      for (const AsCalibrated& each : gap.as_calibrated) rows.push_back({&outcome, &gap, &each});
-  return table_of("With constants of the surface as calibrated", calibrated_quantities, rows,
-                  said("critical_gap.note.as_calibrated"));
-}
-
 Table fit_table(const CriticalGapResult& result) {
   return table_of("T max = intercept + slope * gap over the rows that do not ignite", line_quantities,
-                  parts_of<Line>(result.details, &CaseOutcome::lines));
+                  parts_of<Line>(result.details, &CaseInDetail::lines));
 }
 
 Table run_table(const CriticalGapResult& result) {
-  return report::run_table(of_each(result.details, [](const CaseOutcome& outcome) {
-    const std::string stored = outcome.completed() ? "cases/" + outcome.hash + ".h5" : "";
-    return report::NamedRun{outcome.input.label, outcome.failure, &outcome.result.mechanics, stored};
+  return report::run_table(of_each(result.details, [](const CaseInDetail& each) {
+    const std::string stored = each.completed() ? "cases/" + each.hash + ".h5" : "";
+    return report::NamedRun{each.input.label, each.failure, &each.result.mechanics, stored};
   }));
 }
 
-bool is_within_bounds(const CaseOutcome& outcome, const GapVerdict& row) {
-  return row.judgement.verdict == Verdict::indeterminate && !row.ignition && outcome.completed() &&
-         row.of_case->validity_warnings.empty() && !row.of_case->input.has_unaccepted();
-}
-
-/// Which gaps lie between the lower bound of the critical gap and ignition, and what lowers that bound most.
-std::string undecided_text(const CriticalGapResult& result) {
-  Row facts{{"several", result.details.size() > 1}, {"undecided", Row::array()}};
-  for (const CaseOutcome& outcome : result.details) {
-    const CriticalGap& gap = outcome.critical;
-    Row row{{"case", outcome.input.label}, {"at_least", centimetres(gap.bounds.at_least)}};
-    for (const GapVerdict& each : outcome.verdicts)
-      if (is_within_bounds(outcome, each)) row["gaps"].push_back(centimetres(each.gap));
-    if (!row.contains("gaps")) continue;
-    const auto moves = [&](const study::GapShare& share) { return move_towards_ignition(gap.lower, share); };
-    if (const auto largest = std::ranges::max_element(gap.shares, {}, moves); largest != gap.shares.end())
-      row.update({{"moves", centimetres(moves(*largest))},
-                  {"cause", traits_of(largest->kind).title},
-                  {"remedy", traits_of(largest->kind).remedy}});
-    facts["undecided"].push_back(std::move(row));
+/// The causes of all cases; the notes name the cause that lowers the bound of each case most.
+Table cause_table(const CriticalGapResult& result) {
+  Table table = report::cause_table(of_each(result.details, [](const CaseInDetail& each) {
+    return report::NamedCase{each.input.label, &each};
+  }));
+  Row facts{{"several", result.details.size() > 1}, {"cases", Row::array()}};
+  for (const CaseInDetail& each : result.details) {
+    const auto largest = std::ranges::max_element(each.causes, {}, &study::CauseShare::shorter);
+    if (largest != each.causes.end() && largest->shorter > 0.0)
+      facts["cases"].push_back({{"case", each.input.label},
+                                {"cause", traits_of(largest->cause).title},
+                                {"shorter_cm", shown_gap(largest->shorter)}});
   }
-  const std::string text = said_below("critical_gap.undecided", facts);
-  return text.empty() ? text : "## What keeps rows undecided\n\n" + text;
-}
-
-std::vector<ReportTable> detail_tables(const CriticalGapResult& result) {
-  const auto cases = of_each(result.details, [](const CaseOutcome& outcome) {
-    return report::NamedGap{outcome.input.label, &outcome.critical};
-  });
-  return {{as_calibrated_table(result), "", "as_calibrated", Shown::page},
-          {table_of("Other models", model_rows, parts_of<ModelGap>(result.details, &CaseOutcome::models)), "",
-           "other_models", Shown::page},
-          {report::gap_share_table(cases), "", "gap_shares", Shown::page},
-          {fit_table(result), "", "fit"}};
+  std::ranges::move(said("critical_gap.note.cause", facts), std::back_inserter(table.notes));
+  return table;
 }
 
 }  // namespace
 
 Table coupled_run_table(const CriticalGapResult& result) {
-  const auto rows = parts_of<Confirmation>(result.details, &CaseOutcome::confirmations);
+  const auto rows = parts_of<Confirmation>(result.details, &CaseInDetail::confirmations);
   Table table = table_of("Coupled runs, on through combustion where they ignite", coupled_quantities, rows);
   const auto burnt = std::ranges::find_if(rows, [](const auto& row) { return bool(row.part->combustion); });
   if (burnt == rows.end()) return table;
@@ -141,15 +84,15 @@ Table coupled_run_table(const CriticalGapResult& result) {
 
 std::string limiter_remark(const CriticalGapResult& result) {
   Row runs = Row::array();
-  for (const CaseOutcome& outcome : result.details)
-    runs.push_back({{"case", outcome.input.label},
-                    {"limiters", report::limiters_text(outcome.result.mechanics.limiters)}});
+  for (const CaseInDetail& each : result.details)
+    runs.push_back(
+        {{"case", each.input.label}, {"limiters", report::limiters_text(each.result.mechanics.limiters)}});
   return said_below("critical_gap.limiters", {{"runs", runs}});
 }
 
 void add_details(const CriticalGapResult& result, Report& report) {
-  for (ReportTable& table : detail_tables(result)) report.add(std::move(table));
-  report.say(undecided_text(result));
+  report.add({cause_table(result), "", "causes", Shown::page});
+  report.add({fit_table(result), "", "fit"});
 }
 
 void add_runs(const CriticalGapResult& result, Report& report) {
@@ -158,10 +101,10 @@ void add_runs(const CriticalGapResult& result, Report& report) {
 }
 
 std::vector<ReportTable> detail_results() {
-  std::vector<ReportTable> all{{coupled_run_table({}), "", "coupled_runs"}};
-  std::ranges::move(detail_tables({}), std::back_inserter(all));
-  all.push_back({run_table(CriticalGapResult()), "", "runs"});
-  return all;
+  return {{coupled_run_table({}), "", "coupled_runs"},
+          {cause_table({}), "", "causes"},
+          {fit_table({}), "", "fit"},
+          {run_table({}), "", "runs"}};
 }
 
 }  // namespace launchsafe::kinds

@@ -103,21 +103,20 @@ Plot plot_of(const CriticalGapResult& result, const std::vector<SweptAxis>& axes
     }
   std::map<CriticalGapKind, Series> marks = all_marks();
   std::int64_t unknown = 0;
-  for (std::size_t i = 0; i < result.answers.size(); ++i) {
+  for (std::size_t i = 0; i < result.rows.size(); ++i) {
     const StudyCase& input = result.study.cases[i];
     if (input.coordinates.size() < axes.size()) continue;
     const double of = across == nullptr ? 0.0 : across->key.value(input.coordinates[across->index]);
     const std::size_t line = place_in(values, of);
     if (line == values.size() || values[line] != of) continue;
-    const CriticalGap& gap = result.answers[i].critical;
+    const CriticalGap& gap = result.rows[i].critical;
     const double x = along.key.value(input.coordinates[along.index]);
     if (const auto mark = marks.find(gap.kind); mark != marks.end()) {
-      // A bound stands at its end.
-      mark->second.add(x, shown_gap(gap.kind == CriticalGapKind::all_ignite ? gap.upper : gap.lower));
+      mark->second.add(x, shown_gap(gap.value));
     } else if (const double value = report::value_of(gap); std::isfinite(value)) {
       const std::size_t place = place_in(along.values, x);
       plot.series[line].y[place] = shown_gap(value);
-      plot.series[values.size() + line].y[place] = shown_gap(gap.bounds.at_least);
+      plot.series[values.size() + line].y[place] = shown_gap(result.rows[i].bounds.at_least);
     } else {
       ++unknown;
     }
@@ -128,7 +127,7 @@ Plot plot_of(const CriticalGapResult& result, const std::vector<SweptAxis>& axes
     plot.subtitle = fmt::format("{} of {} values of {}; critical_gaps.csv has all", values.size(),
                                 across->values.size(), across->key.heading);
   if (unknown > 0)
-    plot.subtitle += fmt::format("{}not drawn: {} indeterminate or failed", plot.subtitle.empty() ? "" : "; ",
+    plot.subtitle += fmt::format("{}not drawn: {} without a critical gap", plot.subtitle.empty() ? "" : "; ",
                                  report::counted(unknown, "case"));
   return plot;
 }
@@ -140,7 +139,7 @@ std::optional<report::Picture> gap_picture(const CriticalGapResult& result) {
   std::vector<const SweptAxis*> several;
   for (const SweptAxis& axis : axes)
     if (axis.values.size() > 1) several.push_back(&axis);
-  if (several.empty() || several.size() > 2 || result.answers.empty()) return std::nullopt;
+  if (several.empty() || several.size() > 2 || result.rows.empty()) return std::nullopt;
   const SweptAxis *along = several.front(), *across = several.size() == 1 ? nullptr : several.back();
   if (across != nullptr && across->values.size() > along->values.size()) std::swap(along, across);
   Plot plot = plot_of(result, axes, *along, across);

@@ -13,16 +13,15 @@ Row counts_json(const CriticalGapResult& result) {
   std::map<CriticalGapKind, std::size_t> kinds;
   std::map<Verdict, std::size_t> verdicts;
   std::size_t limited = 0;
-  for (const CaseAnswer& answer : result.answers) {
-    limited += answer.run.limiters.acted() ? 1 : 0;
-    ++kinds[answer.critical.kind];
-    for (const GapVerdict& row : answer.verdicts) ++verdicts[row.judgement.verdict];
+  for (const CaseRow& row : result.rows) {
+    limited += row.run.limiters.acted() ? 1 : 0;
+    ++kinds[row.critical.kind];
+    for (const GapRow& gap : row.gaps) ++verdicts[gap.judgement.verdict];
   }
-  Row counts{{"cases", result.answers.size()},
-             {"failed", count_failed(result.answers)},
-             {"limiters_acted", limited}};
+  Row counts{
+      {"cases", result.rows.size()}, {"failed", count_failed(result.rows)}, {"limiters_acted", limited}};
   for (const auto kind : {CriticalGapKind::value, CriticalGapKind::all_safe, CriticalGapKind::all_ignite,
-                          CriticalGapKind::indeterminate, CriticalGapKind::several_crossings})
+                          CriticalGapKind::unknown, CriticalGapKind::several_crossings})
     counts["critical_gaps"][study::to_string(kind)] = kinds[kind];
   for (const auto verdict : {Verdict::safe, Verdict::unsafe, Verdict::indeterminate})
     counts["verdicts"][study::to_string(verdict)] = verdicts[verdict];
@@ -46,33 +45,33 @@ Row facts_of(const CriticalGapResult& result) {
   // to.
   double best = not_a_number, end = not_a_number;
   std::size_t without_safe = 0;
-  for (std::size_t i = 0; i < result.answers.size(); ++i) {
-    const CriticalGap& gap = result.answers[i].critical;
-    if (std::isfinite(report::value_of(gap)) && !(gap.value >= best)) {
+  for (std::size_t i = 0; i < result.rows.size(); ++i) {
+    const CriticalGap& gap = result.rows[i].critical;
+    if (gap.kind == CriticalGapKind::value && !(gap.value >= best)) {
       best = gap.value;
-      facts["smallest"] = report::measured_text(gap) + ", at " + name_of(keys, result.study.cases[i]);
+      facts["smallest"] =
+          report::measured_text(result.rows[i]) + ", at " + name_of(keys, result.study.cases[i]);
     }
-    if (gap.kind == CriticalGapKind::all_safe && !(gap.lower >= end)) end = gap.lower;
+    if (gap.kind == CriticalGapKind::all_safe && !(gap.value >= end)) end = gap.value;
     if (gap.kind == CriticalGapKind::all_ignite && without_safe++ == 0)
       facts["without_safe"] = name_of(keys, result.study.cases[i]);
   }
   facts["end_of_search_cm"] = report::number(shown_gap(end));
   facts["other_without_safe"] = without_safe > 0 ? without_safe - 1 : 0;
-  facts["failures"] = failures_list(keys, result.study, result.answers);
+  facts["failures"] = failures_list(keys, result.study, result.rows);
   return facts;
 }
 
 std::string answer_in_detail(const CriticalGapResult& result) {
   std::vector<std::string> lines;
-  for (const CaseOutcome& outcome : result.details) {
-    Row row = json_of(report::bounded_gap_quantities(), outcome.critical);
-    row.update({{"why", text_of(outcome.critical.reason)},
-                {"accepted", outcome.evidence && !study::accepted_text(outcome.evidence->input).empty()},
-                {"confirmed", !outcome.confirmations.empty()},
-                {"largest_safe_cm", report::number(shown_gap(study::largest_safe_gap(outcome.verdicts)))}});
-    lines.push_back(said("critical_gap.sentence", {{"row", row}}).front());
+  for (const CaseInDetail& each : result.details) {
+    Row row = json_of(report::case_quantities(), static_cast<const CaseRow&>(each));
+    row.update({{"failure", each.failure},
+                {"end_cm", report::number(shown_gap(each.critical.value))},
+                {"largest_safe_cm", report::number(shown_gap(study::largest_safe_gap(each.gaps)))}});
+    lines.push_back(fmt::format("{}.", fmt::join(said("critical_gap.sentence", {{"row", row}}), "; ")));
     if (result.details.size() > 1)
-      lines.back() = outcome.input.label + ": " + lines.back();
+      lines.back() = each.input.label + ": " + lines.back();
     else
       lines.back().front() = static_cast<char>(std::toupper(lines.back().front()));
   }
@@ -82,9 +81,9 @@ std::string answer_in_detail(const CriticalGapResult& result) {
 Row json_of_study(const CriticalGapResult& result, const Table& gaps) {
   Row members{{"axes", report::axes_json(result.study.study)},
               // Of the only case; where there are several, each has its own.
-              {"critical_gap", result.answers.size() == 1 ? json_rows(gaps).front() : nullptr},
+              {"critical_gap", result.rows.size() == 1 ? json_rows(gaps).front() : nullptr},
               {"counts", counts_json(result)},
-              {"notes", report::mesh_notes(result.study)}};
+              {"notes", report::verdict_notes(result.study, result.rows)}};
   if (!result.details.empty()) members["timing"] = report::timing_json(result.timing);
   return members;
 }
@@ -97,13 +96,13 @@ Plot temperature_plot(const CriticalGapResult& result) {
   std::size_t ignite = 0;
   auto row = verdicts.begin();
   for (std::size_t i = 0; i < result.details.size(); ++i) {
-    const std::vector<GapVerdict>& gaps = result.answers[i].verdicts;
+    const std::vector<GapRow>& gaps = result.rows[i].gaps;
     const auto end = row + static_cast<std::ptrdiff_t>(gaps.size());
     // Temperatures of a part of the launch say nothing of it.
     Row tables{{"verdicts", result.details[i].completed() ? Row(Row::array_t(row, end)) : Row::array()},
                {"cases", Row::array({cases[i]})}};
     row = end;
-    ignite += std::ranges::any_of(gaps, [](const GapVerdict& gap) { return gap.ignition.has_value(); });
+    ignite += std::ranges::any_of(gaps, [](const GapRow& gap) { return gap.ignition.has_value(); });
     const StudyCase& input = result.details[i].input;
     if (input.own_conditions) tables["comparison"] = json_rows(comparison_table(result));
     Plot panel = report::verdict_plot(tables, input.scene.scene);
@@ -119,8 +118,8 @@ Plot temperature_plot(const CriticalGapResult& result) {
 std::string answer(const CriticalGapResult& result) {
   if (!result.details.empty()) return answer_in_detail(result);
   std::vector<std::string> lines = said("critical_gap.answer", facts_of(result));
-  lines.push_back(limited_text(result.answers, "case"));
-  return answer_of(std::move(lines), result.study);
+  lines.push_back(limited_text(result.rows, "case"));
+  return joined_lines(std::move(lines));
 }
 
 Report report_of(const CriticalGapResult& result) {

@@ -11,8 +11,7 @@ namespace launchsafe::kinds {
 Table comparison_table(const CriticalGapResult& result);
 Table coupled_run_table(const CriticalGapResult& result);
 
-/// Adds to the page of a study in detail what stands beside its answers, and which gaps stay undecided; then
-/// how its runs went, and what they took.
+/// Adds to the page of a study in detail the causes and the fits; then how its runs went, and what they took.
 void add_details(const CriticalGapResult& result, Report& report);
 void add_runs(const CriticalGapResult& result, Report& report);
 /// What these tables hold.

@@ -22,13 +22,13 @@ StudyOutcome run_study(const StudyFile& study, const StudyOptions& options) {
   return kind_of(study.study).run(study, options);
 }
 
-std::size_t count_failed(const std::vector<CaseAnswer>& answers) {
-  return answers.size() - static_cast<std::size_t>(std::ranges::count_if(answers, &CaseAnswer::completed));
+std::size_t count_failed(const std::vector<CaseRow>& rows) {
+  return rows.size() - static_cast<std::size_t>(std::ranges::count_if(rows, &CaseRow::completed));
 }
 
-std::string status_of(const CaseAnswer& answer) {
-  if (answer.completed()) return "completed";
-  return answer.run.status == run::RunStatus::completed ? "failed" : run::to_string(answer.run.status);
+std::string status_of(const CaseRow& row) {
+  if (row.completed()) return "completed";
+  return row.run.status == run::RunStatus::completed ? "failed" : run::to_string(row.run.status);
 }
 
 std::string name_of(const std::vector<ShownKey>& keys, const StudyCase& input) {
@@ -37,43 +37,42 @@ std::string name_of(const std::vector<ShownKey>& keys, const StudyCase& input) {
 }
 
 std::string failures_list(const std::vector<ShownKey>& keys, const StudyFile& study,
-                          const std::vector<CaseAnswer>& answers) {
+                          const std::vector<CaseRow>& rows) {
   constexpr std::size_t named = 3;
   std::vector<std::string> list;
-  for (std::size_t i = 0; i < answers.size() && list.size() < named; ++i)
-    if (!answers[i].completed())
-      list.push_back(fmt::format("{} ({})", name_of(keys, study.cases[i]), answers[i].failure));
-  if (const std::size_t failed = count_failed(answers); failed > named)
+  for (std::size_t i = 0; i < rows.size() && list.size() < named; ++i)
+    if (!rows[i].completed())
+      list.push_back(fmt::format("{} ({})", name_of(keys, study.cases[i]), rows[i].failure));
+  if (const std::size_t failed = count_failed(rows); failed > named)
     list.push_back(fmt::format("and {} more", failed - named));
   return fmt::format("{}", fmt::join(list, "; "));
 }
 
-std::string limited_text(const std::vector<CaseAnswer>& answers, const std::string& noun) {
+std::string limited_text(const std::vector<CaseRow>& rows, const std::string& noun) {
   std::int64_t limited = 0;
   run::LimiterCounts all;
-  for (const CaseAnswer& answer : answers) {
-    limited += answer.run.limiters.acted() ? 1 : 0;
-    all += answer.run.limiters;
+  for (const CaseRow& row : rows) {
+    limited += row.run.limiters.acted() ? 1 : 0;
+    all += row.run.limiters;
   }
   if (limited == 0) return {};
   return fmt::format("Limiters acted in {} ({} particle steps in all), whose results rest on them too.",
                      report::counted(limited, noun), report::limiters_text(all));
 }
 
-std::string answer_of(std::vector<std::string> lines, const StudyFile& study) {
-  for (std::string& note : report::mesh_notes(study)) lines.push_back(std::move(note));
+std::string joined_lines(std::vector<std::string> lines) {
   std::erase(lines, "");
   return fmt::format("{}", fmt::join(lines, "\n"));
 }
 
-std::vector<AnsweredCase> answered(const StudyFile& study, const std::vector<CaseAnswer>& answers) {
-  return of_each(answers, [&](const CaseAnswer& answer) {
-    return AnsweredCase{&study, static_cast<std::size_t>(&answer - answers.data()), &answer};
+std::vector<PlacedCase> placed(const StudyFile& study, const std::vector<CaseRow>& rows) {
+  return of_each(rows, [&](const CaseRow& row) {
+    return PlacedCase{&study, static_cast<std::size_t>(&row - rows.data()), &row};
   });
 }
 
-Quantities<AnsweredCase> answered_axes(const Study& study) {
-  return of_part<AnsweredCase>(report::axis_quantities(study), &AnsweredCase::coordinates);
+Quantities<PlacedCase> placed_axes(const Study& study) {
+  return of_part<PlacedCase>(report::axis_quantities(study), &PlacedCase::coordinates);
 }
 
 }  // namespace launchsafe::kinds

@@ -39,7 +39,7 @@ std::vector<std::string> kinds_with(const std::string& name) {
 }
 
 /// The tables of all study files that are read apart from the keys.
-std::vector<std::string> common_tables() { return {"set", "accept"}; }
+std::vector<std::string> common_tables() { return {"set"}; }
 
 /// The kind that a study file names. Where it names none, a key that no kind has is the first fault.
 const Kind& read_kind(const toml::table& root, const std::string& file) {
@@ -93,16 +93,16 @@ void read_keys(const toml::table& root, const Kind& kind, const StudyKeys& keys,
   std::vector<std::string> tables = common_tables();
   for (const StudyTable& table : kind.tables) tables.push_back(table.name);
   study.places = taken(scene::read_table(root, keys, tables, study.file, study.study));
-  check_stated_uncertainties(keys, study);
+  check_reasons(study);
   for (const std::string& name : tables)
     if (const toml::node* node = root.get(name)) study.places[name] = scene::place_of(*node, study.file);
   check_twice(study, "gaps", Dimension::length, study.study.gaps);
 }
 
-void settle_cases(const StudySource& source, const Kind& kind, const StudyKeys& keys, StudyFile& study) {
+void settle_cases(const StudySource& source, const Kind& kind, StudyFile& study) {
   if (kind.varies.values || kind.varies.distributions) read_vary(source, kind.varies, study);
   check_load_axes(study);
-  settle_acceptances(source.root, keys, study);
+  check_constants(study);
   settle_gaps(study);
   kind.make_cases(source, study);
   // Labels have six digits; cases that they do not tell apart are numbered.
@@ -138,64 +138,35 @@ Expected<std::vector<Change>> changes_in(const OverrideTable& table, const std::
   return changes;
 }
 
-study::AccuracyRecords settle_scene(const StudySource& source, const std::vector<OverrideTable>& overrides,
-                                    StudyFile& study) {
+void settle_scene(const StudySource& source, const std::vector<OverrideTable>& overrides, StudyFile& study) {
   study.scene = taken(scene::read_scene(scene::named_file(
       source.folder, study.study.scene, place_of_key(study, "scene"), "scene", "a scene file")));
   use_constants(study, source.folder);
   for (const OverrideTable& each : overrides) apply_overrides(each, study);
-  scene::check_expected_velocity(study.scene);
+  if (study.study.kind.gives_verdicts) scene::check_expected_velocity(study.scene);
   read_models(study, source.folder);
-  study::AccuracyRecords records = read_records(study, source.folder);
-  const double wanted = source.tolerance.value_or(study.study.setting_tolerance);
-  if (std::isfinite(wanted)) choose_setting(study, records, wanted);
   check_scene(study);
-  return records;
 }
 
-void settle_acceptances(const toml::table& root, const StudyKeys& keys, StudyFile& study) {
-  std::vector<KeyDescription> known = scene::acceptable_keys(study.scene.scene);
-  known.insert(known.end(), keys.begin(), keys.end());
-  auto accepted = taken(scene::read_acceptances(root, known, study.file));
-  for (const auto& key : keys) {
-    const Value value = key.get(study.study);
-    if (!study.places.contains(key.name) || scene::is_plausible(key, value)) continue;
-    study.study.implausible.push_back(
-        scene::implausible(accepted, key, key.name, value, scene::plausible_text(key)));
-  }
-  for (scene::Acceptance& each : accepted) {
-    auto& all = scene::find_key(keys, each.key) ? study.study.accepted : study.scene.scene.accepted;
-    scene::accept(all, std::move(each));
-  }
-}
-
-Expected<StudyFile> read_study_table(const StudySource& source, const std::string& file,
-                                     std::size_t most_cases) try {
+Expected<StudyFile> parse_study(std::string_view text, const std::filesystem::path& path,
+                                const StudyRequest& request) try {
+  const toml::table root = taken(scene::parse_toml(text, path.string()));
+  const StudySource source{root, path.parent_path()};
   StudyFile study;
-  study.file = file;
-  study.most_cases = most_cases;
-  scene::check_content(source.root, file, scene::InputContent::study);
-  const Kind& kind = read_kind(source.root, file);
+  study.file = path.string();
+  study.most_cases = request.most_cases;
+  scene::check_content(root, study.file, scene::InputContent::study);
+  const Kind& kind = read_kind(root, study.file);
   const StudyKeys keys = joined({common_keys(), kind.keys});
-  check_bare_uncertainties(source.root, keys, file);
-  check_kind(source.root, kind, file);
-  read_keys(source.root, kind, keys, study);
-  const study::AccuracyRecords records = settle_scene(source, {{"set", source.root.get("set")}}, study);
-  settle_cases(source, kind, keys, study);
-  if (!study.study.kind.own_scenes) settle_uncertainty(study, records);
+  check_kind(root, kind, study.file);
+  read_keys(root, kind, keys, study);
+  settle_scene(source, {{"set", root.get("set")}}, study);
+  settle_cases(source, kind, study);
   check_models(study);
   if (study.study.title.empty()) study.study.title = study.scene.scene.title;
   return study;
 } catch (const InputError& error) {
-  return told(error, file);
-}
-
-Expected<StudyFile> parse_study(std::string_view text, const std::filesystem::path& path,
-                                const StudyRequest& request) {
-  const auto table = scene::parse_toml(text, path.string());
-  if (!table) return table.error();
-  return read_study_table({*table, text, path.parent_path(), request.tolerance}, path.string(),
-                          request.most_cases);
+  return told(error, path.string());
 }
 
 Expected<StudyFile> read_study(const std::filesystem::path& file, const StudyRequest& request) {
@@ -218,8 +189,6 @@ std::vector<scene::DocumentedKey> describe_study_keys() {
   for (const Kind& kind : kinds())
     for (const StudyTable& table : kind.tables)
       for (const scene::DocumentedKey& key : table.keys) add(key, table.name);
-  for (scene::DocumentedKey& key : study_table_of("accept", scene::acceptance_keys()).keys)
-    add(std::move(key), {});
   return documented;
 }
 

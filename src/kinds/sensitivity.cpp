@@ -1,5 +1,6 @@
 #include "launchsafe/kinds/sensitivity.hpp"
 
+#include "launchsafe/math/statistics.hpp"
 #include "study_keys.hpp"
 
 namespace launchsafe::kinds {
@@ -91,9 +92,9 @@ void make_sensitivity_cases(const StudySource&, StudyFile& study) {
 }
 
 double number_of(const OutputSensitivity& of, const SensitivityResult& result, std::size_t evaluation) {
-  const CaseAnswer& answer = result.answers[evaluation];
-  if (of.output == SensitivityOutput::critical_gap) return critical_gap_number(answer);
-  const double temperature = temperature_of(answer, 0, of.inert);
+  const CaseRow& row = result.rows[evaluation];
+  if (of.output == SensitivityOutput::critical_gap) return critical_gap_number(row);
+  const double temperature = temperature_of(row, 0, of.inert);
   if (of.output == SensitivityOutput::maximum_temperature) return temperature;
   const StudyCase input = result.study.cases[evaluation];
   return input.scene.scene.charge().kinetics.ignition_temperature - temperature;
@@ -107,20 +108,20 @@ void summarise(OutputSensitivity& output) {
 }
 
 /// Why critical gaps, some of which are bounds, have no indices; with the first that is none.
-std::string bounds_reason(const OutputSensitivity& output, const std::vector<CaseAnswer>& answers) {
-  const CaseAnswer& first = *std::ranges::find_if(
-      answers, [](const CaseAnswer& answer) { return std::isnan(critical_gap_number(answer)); });
+std::string bounds_reason(const OutputSensitivity& output, const std::vector<CaseRow>& rows) {
+  const CaseRow& first =
+      *std::ranges::find_if(rows, [](const CaseRow& row) { return std::isnan(critical_gap_number(row)); });
   return fmt::format("{} of {} critical gaps are bounds, not numbers (the first without a number: {})",
-                     output.bounds, answers.size(), gap_remark(first));
+                     output.bounds, rows.size(), reads_as(first.critical));
 }
 
 /// Why an output has no statistics: an evaluation of it has no number. Empty where all have one.
-std::string missing_reason(const OutputSensitivity& output, const std::vector<CaseAnswer>& answers) {
-  const std::size_t failed = count_failed(answers);
-  if (failed > 0) return fmt::format("{} of {} evaluations failed", failed, answers.size());
-  if (output.bounds > 0) return bounds_reason(output, answers);
+std::string missing_reason(const OutputSensitivity& output, const std::vector<CaseRow>& rows) {
+  const std::size_t failed = count_failed(rows);
+  if (failed > 0) return fmt::format("{} of {} evaluations failed", failed, rows.size());
+  if (output.bounds > 0) return bounds_reason(output, rows);
   if (output.missing == 0) return {};
-  return fmt::format("{} of {} evaluations have no number", output.missing, answers.size());
+  return fmt::format("{} of {} evaluations have no number", output.missing, rows.size());
 }
 
 math::ChaosBasis basis_of(const Axis& axis) {
@@ -162,15 +163,14 @@ OutputSensitivity sensitivity_of(const SensitivityResult& result, SensitivityOut
   const Study& study = result.study.study;
   OutputSensitivity output;
   output.output = which;
-  output.inert = which != SensitivityOutput::critical_gap && any_ignites(result.answers, 0);
-  for (std::size_t i = 0; i < result.answers.size(); ++i) {
-    const CaseAnswer& answer = result.answers[i];
+  output.inert = which != SensitivityOutput::critical_gap && any_ignites(result.rows, 0);
+  for (std::size_t i = 0; i < result.rows.size(); ++i) {
     output.values.push_back(number_of(output, result, i));
     if (std::isfinite(output.values.back())) continue;
     ++output.missing;
-    if (which == SensitivityOutput::critical_gap && is_bound(answer)) ++output.bounds;
+    if (which == SensitivityOutput::critical_gap && is_bound(result.rows[i])) ++output.bounds;
   }
-  output.reason = missing_reason(output, result.answers);
+  output.reason = missing_reason(output, result.rows);
   if (!output.reason.empty()) return output;
   summarise(output);
   estimate(study, output);
@@ -181,21 +181,14 @@ OutputSensitivity sensitivity_of(const SensitivityResult& result, SensitivityOut
 
 Kind sensitivity_kind() {
   return {
-      .traits = {.name = "sensitivity",
-                 .gives_verdicts = false,
-                 .bounds_critical_gaps = false,
-                 .keeps_answers = true},
-      .keys = joined({gaps_keys(), judging_keys(), uncertainty_keys(), own_keys(sensitivity_keys)}),
+      .traits = {.name = "sensitivity", .gives_verdicts = false},
+      .keys = joined({gaps_keys(), search_keys(), own_keys(sensitivity_keys)}),
       .tables = {vary_table()},
       .varies = {.distributions = true, .needed = "with key and distribution, or the key constants"},
       .make_cases = make_sensitivity_cases,
       .run = outcome_of<run_sensitivity, failures_of<SensitivityResult>>,
       .results = sensitivity_results,
   };
-}
-
-bool SensitivityResult::any_indeterminate() const {
-  return std::ranges::any_of(outputs, [](const auto& each) { return !each.reason.empty(); });
 }
 
 std::vector<SensitivityInput> inputs_of(const Study& study) {
@@ -211,7 +204,7 @@ SensitivityResult run_sensitivity(const StudyFile& study, const StudyOptions& op
       study, options,
       [&](SensitivityResult& result) {
         study::ProgressTracker tracker(options.progress);
-        result.answers = answer_cases(study, options, result.timing, tracker);
+        result.rows = draw_rows(study, options, result.timing, tracker);
       },
       [](SensitivityResult& result) {
         for (const auto output : {SensitivityOutput::maximum_temperature, SensitivityOutput::critical_gap,

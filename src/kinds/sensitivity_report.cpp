@@ -57,8 +57,8 @@ std::string estimate_text(const math::Estimate& estimate) {
 Row method_facts(const SensitivityResult& result) {
   const auto& own = settings_of<SensitivitySettings>(result.study);
   const math::SobolOptions bootstrap;
-  return {{"name", "polynomial-chaos"},           {"text", ""},       {"N", own.samples},
-          {"evaluations", result.answers.size()}, {"seed", own.seed}, {"resamples", bootstrap.resamples},
+  return {{"name", "polynomial-chaos"},        {"text", ""},       {"N", own.samples},
+          {"evaluations", result.rows.size()}, {"seed", own.seed}, {"resamples", bootstrap.resamples},
           {"confidence", bootstrap.level}};
 }
 
@@ -197,24 +197,22 @@ Quantities<OutputSensitivity> output_quantities() {
       {quantity::reason, &OutputSensitivity::reason}};
 }
 
-Quantities<AnsweredCase> evaluation_quantities(const Study& study,
-                                               const std::vector<OutputSensitivity>& outputs) {
-  Quantities<AnsweredCase> of_outputs;
+Quantities<PlacedCase> evaluation_quantities(const Study& study,
+                                             const std::vector<OutputSensitivity>& outputs) {
+  Quantities<PlacedCase> of_outputs;
   for (const OutputSensitivity& output : outputs)
     of_outputs.emplace_back(shown_output(output.output).column,
-                            [&output](const AnsweredCase& row) { return output.values[row.index]; });
-  return joined<AnsweredCase>(
+                            [&output](const PlacedCase& row) { return output.values[row.index]; });
+  return joined<PlacedCase>(
       {{{"number", "number", count(), "Number of the evaluation.",
-         [](const AnsweredCase& row) { return row.index + 1; }},
-        {"evaluation", "evaluation", text(), "Its place in the design.", &AnsweredCase::label}},
-       answered_axes(study),
+         [](const PlacedCase& row) { return row.index + 1; }},
+        {"evaluation", "evaluation", text(), "Its place in the design.", &PlacedCase::label}},
+       placed_axes(study),
        of_outputs,
-       {{for_programs(quantity::critical_gap_kind), &AnsweredCase::answer, &CaseAnswer::critical,
-         &CriticalGap::kind},
-        {quantity::critical_gap_reads_as,
-         [](const AnsweredCase& row) { return reads_as(row.answer->critical); }},
-        {quantity::status, [](const AnsweredCase& row) { return status_of(*row.answer); }},
-        {headed("failure", quantity::reason), &AnsweredCase::answer, &CaseAnswer::failure}}});
+       {{for_programs(quantity::critical_gap_kind), &PlacedCase::row, &CaseRow::critical, &CriticalGap::kind},
+        {quantity::critical_gap_reads_as, [](const PlacedCase& row) { return reads_as(row.row->critical); }},
+        {quantity::status, [](const PlacedCase& row) { return status_of(*row.row); }},
+        {headed("failure", quantity::reason), &PlacedCase::row, &CaseRow::failure}}});
 }
 
 }  // namespace
@@ -223,16 +221,16 @@ std::string answer(const SensitivityResult& result) {
   std::vector<std::string> lines;
   for (const OutputSensitivity& output : result.outputs) lines.push_back(output_text(result, output));
   if (result.outputs.empty()) lines.emplace_back("There are no indices: the study did not come to its end.");
-  const std::size_t all = result.answers.size(), failed = count_failed(result.answers);
+  const std::size_t all = result.rows.size(), failed = count_failed(result.rows);
   const double share = static_cast<double>(failed) / static_cast<double>(all);
-  std::ranges::move(
-      said("sensitivity.failed", {{"all", all},
-                                  {"failed", failed},
-                                  {"percent", shown_value(share, fixed(1, percent))},
-                                  {"failures", failures_list({}, result.study, result.answers)}}),
-      std::back_inserter(lines));
-  lines.push_back(limited_text(result.answers, "evaluation"));
-  return answer_of(std::move(lines), result.study);
+  std::ranges::move(said("sensitivity.failed", {{"all", all},
+                                                {"failed", failed},
+                                                {"percent", shown_value(share, fixed(1, percent))},
+                                                {"failures", failures_list({}, result.study, result.rows)}}),
+                    std::back_inserter(lines));
+  lines.push_back(limited_text(result.rows, "evaluation"));
+  std::ranges::move(report::verdict_notes(result.study, {}), std::back_inserter(lines));
+  return joined_lines(std::move(lines));
 }
 
 Report report_of(const SensitivityResult& result) {
@@ -255,8 +253,7 @@ Report report_of(const SensitivityResult& result) {
   Row facts{{"method", method},
             {"gap_cm", report::number(shown_gap(result.study.study.gaps.front()))},
             {"inputs", report::axes_json(result.study.study)},
-            {"failed", count_failed(result.answers)},
-            {"notes", report::mesh_notes(result.study)}};
+            {"failed", count_failed(result.rows)}};
   report.json = study_json(result.study, report, facts);
   return report;
 }
@@ -308,7 +305,7 @@ Table output_table(const SensitivityResult& result) {
 
 Table evaluation_table(const SensitivityResult& result) {
   return table_of("Evaluations", evaluation_quantities(result.study.study, result.outputs),
-                  answered(result.study, result.answers));
+                  placed(result.study, result.rows));
 }
 
 std::vector<ReportTable> sensitivity_results() {

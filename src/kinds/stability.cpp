@@ -8,7 +8,7 @@ namespace {
 
 /// What a run says by itself: all that judging needs, and no histories.
 struct StressRun {
-  CaseAnswer answer;
+  CaseRow result;
   double end_time = not_a_number;  ///< s, reached
   Sentences violations;            ///< of invariants
   Sentences reserves;              ///< what the result says against itself
@@ -17,8 +17,14 @@ struct StressRun {
 
 std::string joined_text(const Sentences& parts) { return fmt::format("{}", fmt::join(parts, "; ")); }
 
-bool was_computed(const CaseAnswer& answer) {
-  return answer.outcome == RunOutcome::ran || answer.outcome == RunOutcome::reused;
+bool was_computed(const CaseRow& result) {
+  return result.outcome == RunOutcome::ran || result.outcome == RunOutcome::reused;
+}
+
+/// Of a gap: "ignites", "does not ignite", or "no number".
+std::string state_of(const GapRow& gap) {
+  if (!std::isfinite(gap.maximum.temperature)) return "no number";
+  return gap.ignition ? "ignites" : "does not ignite";
 }
 
 // --- of a run by itself ---
@@ -70,11 +76,11 @@ Finding judge_gap(const StudyCase& input, double gap, const run::CaseResult& res
   return finding;
 }
 
-Sentences reserves_of(const Scene& scene, const MechanicsResult& mechanics, const CaseAnswer& answer) {
-  Sentences reserves = run::validity_warnings(scene, mechanics);
-  if (const std::string limited = run::to_string(mechanics.limiters); !limited.empty())
+Sentences reserves_of(const CaseRow& result) {
+  Sentences reserves = of_each(result.warnings, &study::Remark::text);
+  if (const std::string limited = run::to_string(result.run.limiters); !limited.empty())
     reserves.push_back("limiters acted: " + limited);
-  for (const GapVerdict& gap : answer.verdicts)
+  for (const GapRow& gap : result.gaps)
     if (!std::isfinite(gap.maximum.temperature)) reserves.emplace_back("a temperature is not a number");
   return reserves;
 }
@@ -88,8 +94,8 @@ StressRun run_from(const StudyFile& study, std::size_t index, std::vector<Finish
   const std::size_t begun = runs.front().failure.empty() ? runs.size() : 1;
   for (std::size_t i = 0; i < begun; ++i) {
     if (runs[i].has_result() && !was_cut_off(runs[i])) continue;
-    run.answer.failure = (i == 0 ? "" : "in the launch of a gap: ") + runs[i].failure;
-    run.answer.outcome = runs[i].outcome;
+    run.result.failure = (i == 0 ? "" : "in the launch of a gap: ") + runs[i].failure;
+    run.result.outcome = runs[i].outcome;
     return run;
   }
   // The case that asked for the run, by itself or as its safe computation.
@@ -100,16 +106,16 @@ StressRun run_from(const StudyFile& study, std::size_t index, std::vector<Finish
   const MechanicsResult& mechanics = runs.front().result.mechanics;
   Study judged = study.study;
   judged.gaps = asked.gaps;
-  run.answer = answer_of(judged, study.cases[index], mechanics);
-  run.answer.outcome = runs.front().outcome;
+  run.result = study::draw_row(judged, study.cases[index], mechanics);
+  run.result.outcome = runs.front().outcome;
   run.end_time = mechanics.end_time;
-  if (!run.answer.completed()) {
+  if (!run.result.completed()) {
     run.findings = {judge_stopped(asked, mechanics)};
     runs.front().expected = asked.run == index && asked.expects(run.findings.front().outcome);
     return run;
   }
   run.violations = violations_of({scene, mechanics, asked.gaps});
-  run.reserves = reserves_of(scene, mechanics, run.answer);
+  run.reserves = reserves_of(run.result);
   for (std::size_t i = 1; i < begun; ++i)
     run.findings.push_back(judge_gap(study.cases[index], scene.surface.gaps[i - 1], runs[i].result));
   return run;
@@ -119,29 +125,24 @@ StressRun run_from(const StudyFile& study, std::size_t index, std::vector<Finish
 
 /// Of a launch that completed. `compared`: there is nothing to compare with, or it completed.
 Finding judge_launch(const StressCaseRow& row, const StressRun& run, bool compared) {
-  Sentences faults = run.violations, numbers;
-  const bool checked = compared && !row.deviations.empty();
-  bool wrong = false;
-  for (std::size_t i = 0; i < row.answer.verdicts.size(); ++i) {
-    const GapVerdict& gap = row.answer.verdicts[i];
-    const double deviation = row.deviations.empty() ? not_a_number : row.deviations[i];
-    const double uncertainty = gap.uncertainty.total();
-    const bool off = checked && std::abs(deviation) > uncertainty;
-    if (checked && std::isnan(deviation))
-      faults.emplace_back("a temperature to compare with is not a number");
-    if (off)
-      faults.push_back(fmt::format("off the safe computation by {:.3g} K, more than {:.3g} K",
-                                   std::abs(deviation), uncertainty));
-    if (gap.judgement.verdict != Verdict::indeterminate && (off || !run.violations.empty())) wrong = true;
+  Sentences faults = run.violations, remarks = run.reserves, numbers;
+  for (std::size_t i = 0; i < row.result.gaps.size(); ++i) {
+    const GapRow& gap = row.result.gaps[i];
     numbers.push_back(fmt::format("{:.6g} cm: T max {:.1f} K, {}", 100.0 * gap.gap, gap.maximum.temperature,
-                                  to_string(gap.judgement.verdict)));
+                                  state_of(gap)));
+    if (!compared || row.deviations.empty()) continue;
+    const double deviation = row.deviations[i], tolerance = row.asked.tolerance;
+    if (std::isnan(deviation)) remarks.emplace_back("a temperature to compare with is not a number");
+    if (std::abs(deviation) > tolerance)
+      faults.push_back(fmt::format("off the safe computation by {:.3g} K, more than {:.3g} K",
+                                   std::abs(deviation), tolerance));
     if (std::isfinite(deviation))
-      numbers.back() += fmt::format(", {:+.2g} K against the safe computation, uncertainty {:.2g} K",
-                                    deviation, uncertainty);
+      numbers.back() += fmt::format(", {:+.2g} K against the safe computation", deviation);
   }
-  faults.insert(faults.end(), run.reserves.begin(), run.reserves.end());
-  if (!compared) faults.emplace_back("the safe computation is not there to compare with");
-  const Outcome outcome = wrong ? Outcome::wrong : faults.empty() ? Outcome::held : Outcome::degraded;
+  if (!compared) remarks.emplace_back("the safe computation is not there to compare with");
+  const bool silent = !faults.empty() && run.reserves.empty();
+  faults.insert(faults.end(), remarks.begin(), remarks.end());
+  const Outcome outcome = silent ? Outcome::wrong : faults.empty() ? Outcome::held : Outcome::degraded;
   faults.insert(faults.end(), numbers.begin(), numbers.end());
   return {outcome, joined_text(faults)};
 }
@@ -155,18 +156,18 @@ Finding worst_of(std::vector<Finding> findings) {
 /// `against`: the safe computation; nullptr without one. Both ignite at `ignition_temperature`, K.
 StressCaseRow judge(const StressCase& asked, const StressRun& run, const StressRun* against,
                     double ignition_temperature) {
-  StressCaseRow row{asked, run.answer, run.end_time, {}, {}, {}};
-  if (against != nullptr && row.computed() && !was_computed(against->answer)) row.answer = against->answer;
+  StressCaseRow row{asked, run.result, run.end_time, {}, {}, {}};
+  if (against != nullptr && row.computed() && !was_computed(against->result)) row.result = against->result;
   if (!row.computed()) return row;
-  for (std::size_t i = 0; against != nullptr && i < against->answer.verdicts.size(); ++i) {
-    row.heated_against.push_back(against->answer.verdicts[i].heated);
-    row.deviations.push_back(std::min(run.answer.verdicts[i].heated, ignition_temperature) -
+  for (std::size_t i = 0; against != nullptr && i < against->result.gaps.size(); ++i) {
+    row.heated_against.push_back(against->result.gaps[i].heated);
+    row.deviations.push_back(std::min(run.result.gaps[i].heated, ignition_temperature) -
                              std::min(row.heated_against[i], ignition_temperature));
   }
   std::vector<Finding> findings = run.findings;
-  if (run.answer.completed())
+  if (run.result.completed())
     findings.insert(findings.begin(),
-                    judge_launch(row, run, against == nullptr || against->answer.completed()));
+                    judge_launch(row, run, against == nullptr || against->result.completed()));
   row.finding = worst_of(std::move(findings));
   return row;
 }
@@ -179,7 +180,7 @@ std::string outcome_text(const StressCaseRow& row) {
 }
 
 std::string finding_text(const StressCaseRow& row) {
-  return row.computed() ? row.finding.text : row.answer.failure;
+  return row.computed() ? row.finding.text : row.result.failure;
 }
 
 std::string expected_text(const StressCase& asked) {
@@ -189,12 +190,12 @@ std::string expected_text(const StressCase& asked) {
 }
 
 /// A case, and one of its gaps where there is one.
-struct GapRow {
+struct GapOfCase {
   const StressCaseRow* of;
   std::optional<std::size_t> gap;
 
-  const GapVerdict* verdict() const { return gap ? &of->answer.verdicts[*gap] : nullptr; }
-  const RunSummary* run() const { return gap ? &of->answer.run : nullptr; }
+  const GapRow* row() const { return gap ? &of->result.gaps[*gap] : nullptr; }
+  const study::RunRow* run() const { return gap ? &of->result.run : nullptr; }
 };
 
 const Quantities<StressCaseRow> stress_case_quantities{
@@ -206,41 +207,41 @@ const Quantities<StressCaseRow> stress_case_quantities{
     {"finding", "finding", text(), "Why it came out so, and the numbers behind it.", finding_text}};
 
 /// What there is to say of a case and of one of its gaps, which may have none of the numbers.
-Quantities<GapRow> stability_quantities() {
+Quantities<GapOfCase> stability_quantities() {
   const auto of_list = [](std::vector<double> StressCaseRow::*list) {
-    return [list](const GapRow& row) {
+    return [list](const GapOfCase& row) {
       const std::vector<double>& values = row.of->*list;
       return row.gap && *row.gap < values.size() ? values[*row.gap] : not_a_number;
     };
   };
-  return joined<GapRow>(
-      {of_part<GapRow>(stress_case_quantities, &GapRow::of),
-       {{quantity::status, &GapRow::run, &RunSummary::status},
+  return joined<GapOfCase>(
+      {of_part<GapOfCase>(stress_case_quantities, &GapOfCase::of),
+       {{quantity::status, &GapOfCase::run, &study::RunRow::status},
         {"end_time", "until", fixed(4, millisecond), "Instant that the run reached.",
-         [](const GapRow& row) { return row.gap ? row.of->end_time : not_a_number; }},
-        {quantity::steps, &GapRow::run, &RunSummary::steps},
-        {quantity::particles, &GapRow::run, &RunSummary::particles},
-        {quantity::energy_drift, &GapRow::run, &RunSummary::energy_drift},
-        {quantity::gap, &GapRow::verdict, &GapVerdict::gap},
-        {quantity::temperature_max, &GapRow::verdict,
-         [](const GapVerdict& gap) { return report::known(gap.maximum.temperature); }},
-        {quantity::temperature_max_inert, &GapRow::verdict, &GapVerdict::heated},
+         [](const GapOfCase& row) { return row.gap ? row.of->end_time : not_a_number; }},
+        {quantity::steps, &GapOfCase::run, &study::RunRow::steps},
+        {quantity::particles, &GapOfCase::run, &study::RunRow::particles},
+        {quantity::energy_drift, &GapOfCase::run, &study::RunRow::energy_drift},
+        {quantity::gap, &GapOfCase::row, &GapRow::gap},
+        {quantity::temperature_max, &GapOfCase::row,
+         [](const GapRow& gap) { return report::known(gap.maximum.temperature); }},
+        {quantity::temperature_max_inert, &GapOfCase::row, &GapRow::heated},
         {"safe_computation", "safe computation", fixed(1, kelvin), "T max of the safe computation.",
          of_list(&StressCaseRow::heated_against)},
         {"deviation", "against", fixed(1, kelvin), "How far the case is off it.",
          of_list(&StressCaseRow::deviations)},
-        {quantity::uncertainty, &GapRow::verdict, &GapVerdict::uncertainty, &study::Uncertainty::total},
-        {quantity::verdict, &GapRow::verdict, &GapVerdict::judgement, &study::Judgement::verdict},
-        {quantity::reason, &GapRow::verdict, [](const GapVerdict& gap) { return reason_text(gap); }},
-        {quantity::limiters, &GapRow::run,
-         [](const RunSummary& summary) { return run::to_string(summary.limiters); }}}});
+        {"tolerance", "tolerance", significant(2, kelvin), "By how much it may be off it.",
+         [](const GapOfCase& row) { return row.gap ? row.of->asked.tolerance : not_a_number; }},
+        {"state", "state", text(), "ignites, does not ignite, or no number.", &GapOfCase::row, state_of},
+        {quantity::limiters, &GapOfCase::run,
+         [](const study::RunRow& run) { return run::to_string(run.limiters); }}}});
 }
 
 /// A row for every gap of every case: what must hold, what became of it, why, and the numbers behind it.
 Table stability_table(const StabilityResult& result) {
-  std::vector<GapRow> rows;
+  std::vector<GapOfCase> rows;
   for (const StressCaseRow& row : result.rows) {
-    const std::size_t gaps = row.computed() ? row.answer.verdicts.size() : 0;
+    const std::size_t gaps = row.computed() ? row.result.gaps.size() : 0;
     for (std::size_t i = 0; i < gaps; ++i) rows.push_back({&row, i});
     if (gaps == 0) rows.push_back({&row, std::nullopt});
   }
@@ -254,13 +255,13 @@ std::size_t count_missing(const StabilityResult& result) {
 constexpr Outcome all_outcomes[] = {Outcome::held, Outcome::degraded, Outcome::caught, Outcome::wrong};
 
 std::string legend(const Study& study) {
+  const double tolerance = settings_of<StabilitySettings>(study).temperature_tolerance;
   Row invariants = Row::array();
   for (const Invariant& each : all_invariants())
     invariants.push_back({{"name", each.name}, {"words", each.words}});
-  return fmt::format(
-      "{}\nInvariants, with an uncertainty of T max of {} unless the case states its own:\n\n{}",
-      said_below("stability.outcomes"), in_words(study.numerical_uncertainty, significant(3, kelvin)),
-      said_below("stability.invariants", {{"invariants", invariants}}));
+  return fmt::format("{}\nInvariants, with a tolerance of T max of {} unless the case states its own:\n\n{}",
+                     said_below("stability.outcomes"), in_words(tolerance, significant(3, kelvin)),
+                     said_below("stability.invariants", {{"invariants", invariants}}));
 }
 
 Row counts_json(const StabilityResult& result) {
@@ -298,7 +299,7 @@ bool StressCase::expects(Outcome outcome) const {
   return expected.empty() || std::ranges::count(expected, outcome) > 0;
 }
 
-bool StressCaseRow::computed() const { return was_computed(answer); }
+bool StressCaseRow::computed() const { return was_computed(result); }
 
 bool StressCaseRow::is_as_expected() const { return computed() && asked.expects(finding.outcome); }
 

@@ -23,9 +23,16 @@ const std::vector<Key<StressCase>> case_keys{
     number_key("caught_within", Dimension::count, between(0, 1e9), Standing::input,
                "Steps within which a broken computation must be caught; 0: any number.",
                &StressCase::caught_within),
-    number_key("numerical_uncertainty", Dimension::temperature_difference, between(0, 1000), Standing::input,
-               "Uncertainty of the maximum temperature with these numerics; the study's if absent.",
-               &StressCase::numerical_uncertainty),
+    number_key("tolerance", Dimension::temperature_difference, above_to(0, 1000), Standing::input,
+               "By how much the maximum temperature may be off that of the safe computation; "
+               "temperature_tolerance of the study if absent.",
+               &StressCase::tolerance),
+};
+
+const std::vector<Key<StabilitySettings>> stability_keys{
+    number_key("temperature_tolerance", Dimension::temperature_difference, above_to(0, 1000),
+               Standing::assumed, "Tolerance of cases that state none.",
+               &StabilitySettings::temperature_tolerance),
 };
 
 /// One case while it is read.
@@ -78,10 +85,7 @@ SceneFile starting_scene(const CaseReader& reader) {
 std::size_t add_run(const CaseReader& reader, const std::string& label, SceneFile scene) {
   if (!scene::has_charge(scene.scene))
     reader.refuse("scene", "a scene without a charge", "a scene with a charge");
-  StudyCase made = study::case_of(label, std::move(scene));
-  const double own = reader.launch.numerical_uncertainty;
-  made.numerical_uncertainty = std::isfinite(own) ? own : reader.study.study.numerical_uncertainty;
-  reader.study.cases.add(std::move(made));
+  reader.study.cases.add(study::case_of(label, std::move(scene)));
   return reader.study.cases.size() - 1;
 }
 
@@ -123,8 +127,9 @@ void read_case(CaseReader reader) {
   launch.group = launch.name;
   const std::string& file = reader.study.file;
   taken(scene::read_table(reader.table, case_keys, {"set", "against"}, file, launch), "group.cases");
-  const auto& others = settings_of<StabilitySettings>(reader.study).cases;
-  if (std::ranges::count(others, launch.label(), &StressCase::label) > 0)
+  const auto& settings = settings_of<StabilitySettings>(reader.study);
+  if (std::isnan(launch.tolerance)) launch.tolerance = settings.temperature_tolerance;
+  if (std::ranges::count(settings.cases, launch.label(), &StressCase::label) > 0)
     reader.refuse("name", fmt::format("\"{}\" a second time in \"{}\"", launch.name, launch.group),
                   "a name that no other case of the group has");
   const Changed changed =
@@ -147,10 +152,6 @@ void read_group(const toml::table& group, const StudySource& source, StudyFile& 
 }
 
 void make_stability_cases(const StudySource& source, StudyFile& study) {
-  if (!std::isfinite(study.study.numerical_uncertainty))
-    refuse_at(study, "numerical_uncertainty", "nothing; the key is missing",
-              "the uncertainty that verdicts of the table are judged with: with a large one assumed nothing "
-              "could be WRONG");
   const std::string allowed = "at least one table, written [[group]], with a case that has a run";
   for (const toml::table* group : taken(scene::tables_of(source.root, "group", study.file, allowed)))
     read_group(*group, source, study);
@@ -159,16 +160,16 @@ void make_stability_cases(const StudySource& source, StudyFile& study) {
                    "no case that runs", allowed);
 }
 
-/// A case that is WRONG is the worst outcome of a study. No case makes it indeterminate.
+/// A case that is WRONG or not as expected fails the study.
 std::vector<Failure> stability_failures(const StabilityResult& result) {
   std::vector<Failure> failures;
   for (const StressCaseRow& row : result.rows) {
     if (row.is_as_expected()) continue;
-    CaseAnswer answer = row.answer;
+    CaseRow result = row.result;
     if (row.computed())
-      answer.failure = fmt::format("{}, which is not what the study expects: {}",
+      result.failure = fmt::format("{}, which is not what the study expects: {}",
                                    to_string(row.finding.outcome), row.finding.text);
-    add_failure(failures, row.asked.label(), answer);
+    add_failure(failures, row.asked.label(), result);
   }
   return failures;
 }
@@ -186,7 +187,7 @@ Kind stability_kind() {
                  .gives_verdicts = false,
                  .own_scenes = true,
                  .goes_through_ignition = true},
-      .keys = joined({gaps_keys(), judging_keys()}),
+      .keys = joined({gaps_keys(), search_keys(), own_keys(stability_keys)}),
       .tables = {study_table_of("group", case_keys)},
       .make_cases = make_stability_cases,
       .run = outcome_of<run_stability, stability_failures>,

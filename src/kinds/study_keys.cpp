@@ -10,36 +10,27 @@ Key<Study> study_number(std::string name, Dimension dimension, Limits limits, st
                            member);
 }
 
-constexpr const char *value_part = ".value", *because_part = ".because";
-
-/// The source of an uncertainty that is stated by hand; it is read after the value.
-Key<Study> because_key(const std::string& name, double Study::*member, double least) {
-  Key<Study> key{keys::description(name + because_part, scene::KeyKind::text, Standing::input,
-                                   "Where that comes from, in words; told beside verdicts.")};
-  key.example = "mesh study of this shell, 2.5 and 1.25 mm";
-  key.set = [=](Study& study, const Value& value) {
-    study.stated.push_back({name, study.*member, std::get<std::string>(value), least});
-  };
+/// Reasons by name, one key for each name that there may be: "accept.low-velocity".
+Key<Study> reason_key(const std::string& table, const std::string& name, const std::string& of,
+                      std::map<std::string, std::string> Study::*reasons) {
+  Key<Study> key{keys::description(table + name, scene::KeyKind::text, Standing::input,
+                                   "Reason for which it is accepted: " + of + ".")};
+  key.example = "proof shots are fired so";
+  key.set = [=](Study& study, const Value& value) { (study.*reasons)[name] = std::get<std::string>(value); };
   key.get = [](const Study&) { return Value(std::string{}); };
   return key;
 }
 
-/// Of a temperature, K: NAME = { value = "1 K", because = "..." }. `least`: K, at the least, without it.
-StudyKeys stated_uncertainty(const std::string& name, std::string sentence, double Study::*member,
-                             double least = study::not_a_number) {
-  return {study_number(name + value_part, Dimension::temperature_difference, between(0, 1000),
-                       std::move(sentence), member) |
-              plausibly(between(1, 1000),
-                        "no published temperature is met, and no mesh known to be exact, to a kelvin"),
-          because_key(name, member, least)};
-}
-
-/// The uncertainties that are stated by hand among some keys.
-std::vector<std::string> uncertainties_in(const StudyKeys& keys) {
-  std::vector<std::string> names;
-  for (const Key<Study>& key : keys)
-    if (key.name.ends_with(because_part)) names.push_back(key.name.substr(0, key.name.rfind('.')));
-  return names;
+StudyKeys reason_keys() {
+  StudyKeys keys;
+  for (const run::WarningKind& each : run::warning_kinds())
+    if (each.acceptable)
+      keys.push_back(reason_key("accept.", each.name, each.meaning, &Study::accepted_warnings));
+  for (const scene::RangeKey& each : scene::range_keys())
+    if (each.acceptable)
+      keys.push_back(reason_key("accept.extrapolation.", each.name, "outside of the interval of the " + each.meaning,
+                                &Study::accepted_extrapolation));
+  return keys;
 }
 
 Key<Study> kind_key() {
@@ -139,62 +130,39 @@ StudyKeys gaps_keys() {
 }
 
 StudyKeys search_keys() {
-  return {
-      study_number("tolerance", Dimension::length, between(1e-9, 1e-3),
-                   "Largest width of the bracket of the critical gap; 0.0001 cm at most.",
-                   &Study::tolerance) |
-          plausibly(between(1e-9, 2e-4),
-                    "a wider bracket says little of gaps that are tenths of a millimetre"),
-      study_number("largest_gap", Dimension::length, above_to(0, study::widest_search),
-                   "Where the search for the critical gap ends. Without ignition up to there no gap is SAFE, "
-                   "unless it "
-                   "is the largest value, of which gaps up to half can be.",
-                   &Study::largest_gap) |
-          plausibly(between(1e-4, 0.01), "a search that ends at less finds no gap that ignites"),
-  };
+  return {study_number("largest_gap", Dimension::length, between(1e-4, study::widest_search),
+                       "Where the search for the critical gap ends.", &Study::largest_gap)};
 }
 
-StudyKeys judging_keys() {
-  return joined(
-      {search_keys(),
-       stated_uncertainty("numerical_uncertainty",
-                          "Uncertainty of the maximum temperature from the mesh, from a mesh study.",
-                          &Study::numerical_uncertainty, study::assumed_numerical_uncertainty)});
-}
-
-StudyKeys uncertainty_keys() {
-  const StudyKeys records{
-      text_key("accuracy", Standing::input,
-               "Path of the record of an accuracy study, accuracy.json, from the study file's folder; it "
-               "gives the numerical uncertainty of every setting in it. Of several, \"a, b\", that which was "
-               "made of such a scene; one of gaps that close is of them alone.",
-               "../reports/accuracy/accuracy_155mm.json", &Study::accuracy),
-      study_number("setting_tolerance", Dimension::temperature_difference, above_to(0, 1000),
-                   "Replaces the scene's numerics by the cheapest setting of the record that knows the "
-                   "maximum temperature to this; on the command line --tolerance.",
-                   &Study::setting_tolerance),
-  };
-  return joined(
-      {records,
-       stated_uncertainty("fit_uncertainty",
-                          "Uncertainty of the margin from the calibrated constants, on the rows that they "
-                          "were fitted to; what the record of the calibration says if absent, and without "
-                          "one that of the shipped calibration.",
-                          &Study::fit_uncertainty),
-       stated_uncertainty("input_uncertainty",
-                          "Uncertainty of the maximum temperature from what is not known of the launch (see "
-                          "kind sensitivity), for the study's own scene; if absent an assumed spread of load "
-                          "and initial temperature is propagated, which takes a second run for every case.",
-                          &Study::input_uncertainty, study::assumed_temperature_spread)});
-}
-
-StudyKeys models_keys() {
-  return {
+StudyKeys verdict_keys() {
+  using study::Spreads, study::StatedNumerics;
+  const StudyKeys spreads = keys::keys_of_part(
+      "uncertainty.", &Study::spreads,
+      std::vector<Key<Spreads>>{
+          number_key("peak_pressure", Dimension::share, between(0, 0.2), Standing::assumed,
+                     "Two standard deviations of the peak pressure from round to round.",
+                     &Spreads::peak_pressure),
+          number_key("pulse_length", Dimension::share, between(0, 0.5), Standing::assumed,
+                     "Two standard deviations of the length of the pulse at the same peak.",
+                     &Spreads::pulse_length),
+          number_key("initial_temperature", Dimension::temperature_difference, between(0, 100),
+                     Standing::assumed, "Two standard deviations of the temperature before launch.",
+                     &Spreads::initial_temperature)});
+  const StudyKeys numerics = keys::keys_of_part(
+      "numerics.", &Study::numerics,
+      std::vector<Key<StatedNumerics>>{
+          number_key("value", Dimension::temperature_difference, between(0.1, 1000), Standing::input,
+                     "Error of T max by cells and steps, in place of a companion launch with other cells.",
+                     &StatedNumerics::error),
+          text_key("because", Standing::input, "Ground for it, in words.",
+                   "companions of the corners of this sweep", &StatedNumerics::because)});
+  const StudyKeys models{
       text_key("models", Standing::input,
                "Other constants, \"a, b\": names, or paths of constants files from the study file's "
-               "folder. Every case is launched under each of them too, and how far its critical gap moves "
-               "counts as uncertainty.",
+               "folder. Every case is launched under each of them too, and the largest change of its critical "
+               "gap widens its bounds.",
                "bonded_base, wall_friction", &Study::model_names)};
+  return joined({spreads, numerics, models, reason_keys()});
 }
 
 StudyKeys reference_keys() {
@@ -215,30 +183,21 @@ std::string default_text(const KeyDescription& key, const Value& value) {
 
 StudyTable reference_table() { return study_table_of("reference", published_row_keys); }
 
-void check_bare_uncertainties(const toml::table& root, const StudyKeys& keys, const std::string& file) {
-  for (const std::string& name : uncertainties_in(keys)) {
-    const toml::node* node = root.get(name);
-    if (node == nullptr || (node->is_table() && !node->as_table()->empty())) continue;
-    const std::string value = node->is_string() ? found_text(*node) : "\"1 K\"";
-    throw error_at(scene::place_of(*node, file), name, found_text(*node) + " without a source",
-                   "a value with where it comes from, in words",
-                   fmt::format("{{ value = {}, because = \"...\" }}", value));
+void check_reasons(const StudyFile& study) {
+  const study::StatedNumerics& numerics = study.study.numerics;
+  if (numerics.is_stated() || !numerics.because.empty()) {
+    if (!numerics.is_stated())
+      refuse_at(study, "numerics.because", "a ground without a value", "numerics = { value = \"1 K\", because = \"...\" }");
+    if (!study.places.contains("numerics.because"))
+      refuse_at(study, "numerics.value", "a value without a ground", "numerics = { value = \"1 K\", because = \"...\" }");
+    scene::check_reason(numerics.because, place_of_key(study, "numerics.because"), "numerics.because");
   }
-}
-
-void check_stated_uncertainties(const StudyKeys& keys, const StudyFile& study) {
-  const auto has = [&](const std::string& key) { return study.places.contains(key); };
-  for (const std::string& name : uncertainties_in(keys)) {
-    const std::string value = name + value_part, because = name + because_part;
-    if (has(value) != has(because))
-      refuse_at(study, has(because) ? because : value,
-                has(because) ? "a source without a value" : "a value without a source",
-                fmt::format("{} = {{ value = \"1 K\", because = \"...\" }}", name));
-  }
-  for (const study::StatedUncertainty& each : study.study.stated) {
-    const std::string key = each.key + because_part;
-    scene::check_reason(each.because, place_of_key(study, key), key);
-  }
+  const auto check = [&](const std::map<std::string, std::string>& reasons, const std::string& table) {
+    for (const auto& [name, because] : reasons)
+      scene::check_reason(because, place_of_key(study, table + name), table + name);
+  };
+  check(study.study.accepted_warnings, "accept.");
+  check(study.study.accepted_extrapolation, "accept.extrapolation.");
 }
 
 void read_references(const StudySource& source, StudyFile& study) {

@@ -4,8 +4,7 @@
 #include "launchsafe/kinds/kind.hpp"
 #include "launchsafe/report/quantities.hpp"
 #include "launchsafe/report/study_text.hpp"
-#include "launchsafe/study/case_answer.hpp"
-#include "launchsafe/study/constants_of_study.hpp"
+#include "launchsafe/study/case_rows.hpp"
 
 namespace launchsafe::kinds {
 
@@ -23,9 +22,9 @@ using report::centimetres, report::Column, report::digits_of, report::in_words, 
 using run::MechanicsResult;
 using scene::format_quantity, scene::Load, scene::Scene;
 using study::Axis, study::RunOutcome, study::Verdict;
-using study::CaseAnswer, study::CaseOutcome, study::CriticalGap, study::CriticalGapKind, study::FinishedRun,
-    study::GapVerdict, study::not_a_number, study::of_each, study::Reference, study::RunSummary, study::Study,
-    study::StudyCase, study::StudyFile, study::StudyOptions;
+using study::CaseInDetail, study::CaseRow, study::CriticalGap, study::CriticalGapKind, study::FinishedRun,
+    study::GapRow, study::not_a_number, study::of_each, study::Reference, study::Study, study::StudyCase,
+    study::StudyFile, study::StudyOptions;
 using surface::SkinModel;
 using trace::BottomTrace;
 
@@ -41,12 +40,12 @@ void add_failure(std::vector<Failure>& failures, const std::string& label, const
     failures.push_back({label, ended.failure, ended.outcome});
 }
 
-/// Of a kind that has an answer for every case.
+/// Of a kind that has a row for every case.
 template <class Result>
 std::vector<Failure> failures_of(const Result& result) {
   std::vector<Failure> failures;
-  for (std::size_t i = 0; i < result.answers.size(); ++i)
-    add_failure(failures, result.study.cases.label(i), result.answers[i]);
+  for (std::size_t i = 0; i < result.rows.size(); ++i)
+    add_failure(failures, result.study.cases.label(i), result.rows[i]);
   return failures;
 }
 
@@ -55,8 +54,7 @@ std::vector<Failure> failures_of(const Result& result) {
 template <auto run, auto failures>
 StudyOutcome outcome_of(const StudyFile& study, const StudyOptions& options) {
   const auto result = run(study, options);
-  StudyOutcome outcome{result.interrupted, false, failures(result), result.timing, {}};
-  if constexpr (requires { result.any_indeterminate(); }) outcome.indeterminate = result.any_indeterminate();
+  StudyOutcome outcome{result.interrupted, failures(result), result.timing, {}};
   if (!result.interrupted && options.shard.whole()) outcome.report = report_of(result);
   return outcome;
 }
@@ -69,40 +67,35 @@ std::vector<std::string> said(const std::string& name, const Row& facts = Row::o
 std::string said_below(const std::string& name, const Row& facts = Row::object());
 
 /// Whether a gap of the study ignites in any case, so that T max jumps to that of a burning skin.
-inline bool any_ignites(const std::vector<CaseAnswer>& answers, std::size_t gap) {
-  return std::ranges::any_of(answers, [gap](const CaseAnswer& answer) {
-    return answer.verdicts.size() > gap && answer.verdicts[gap].ignition.has_value();
+inline bool any_ignites(const std::vector<CaseRow>& rows, std::size_t gap) {
+  return std::ranges::any_of(rows, [gap](const CaseRow& row) {
+    return row.gaps.size() > gap && row.gaps[gap].ignition.has_value();
   });
 }
 
 /// K, T max at a gap of the study; `inert`: of a skin that does not react. NaN of a case that failed.
-inline double temperature_of(const CaseAnswer& answer, std::size_t gap, bool inert) {
-  if (!answer.completed()) return not_a_number;
-  return inert ? answer.verdicts[gap].heated : answer.verdicts[gap].maximum.temperature;
+inline double temperature_of(const CaseRow& row, std::size_t gap, bool inert) {
+  if (!row.completed()) return not_a_number;
+  return inert ? row.gaps[gap].heated : row.gaps[gap].maximum.temperature;
 }
 
 /// m, of a case that completed; NaN where it is no number.
-inline double critical_gap_number(const CaseAnswer& answer) {
-  return answer.completed() ? answer.critical.value : not_a_number;
+inline double critical_gap_number(const CaseRow& row) {
+  return row.critical.kind == CriticalGapKind::value ? row.critical.value : not_a_number;
 }
 
-inline bool is_bound(const CaseAnswer& answer) {
-  return answer.critical.kind == CriticalGapKind::all_safe ||
-         answer.critical.kind == CriticalGapKind::all_ignite;
+inline bool is_bound(const CaseRow& row) {
+  return row.critical.kind == CriticalGapKind::all_safe || row.critical.kind == CriticalGapKind::all_ignite;
 }
 
 /// Cases that came to nothing.
-std::size_t count_failed(const std::vector<CaseAnswer>& answers);
+std::size_t count_failed(const std::vector<CaseRow>& rows);
 
 /// "completed", how the run ended instead, or "failed" where it never was.
-std::string status_of(const CaseAnswer& answer);
+std::string status_of(const CaseRow& row);
 
-/// Why there is no critical gap, or why it is a bound; else empty.
-inline std::string gap_remark(const CaseAnswer& answer) {
-  if (!answer.completed()) return answer.failure;
-  const std::string reason = text_of(answer.critical.reason), failed = failed_models(answer.models);
-  return reason.empty() || failed.empty() ? reason + failed : reason + "; " + failed;
-}
+/// Why a case has no numbers, or no bounds; else empty.
+inline std::string remark_of(const CaseRow& row) { return row.completed() ? row.incomplete : row.failure; }
 
 /// Where a case lies, or its label if it has no coordinates.
 std::string name_of(const std::vector<ShownKey>& keys, const StudyCase& input);
@@ -110,14 +103,13 @@ std::string name_of(const std::vector<ShownKey>& keys, const StudyCase& input);
 /// What failed and why, at most three by name: "496 MPa, 30 µm (energy drift); ...; and 4 more". By label
 /// where no keys are given.
 std::string failures_list(const std::vector<ShownKey>& keys, const StudyFile& study,
-                          const std::vector<CaseAnswer>& answers);
+                          const std::vector<CaseRow>& rows);
 
 /// What must be said where limiters acted; else empty.
-std::string limited_text(const std::vector<CaseAnswer>& answers, const std::string& noun);
+std::string limited_text(const std::vector<CaseRow>& rows, const std::string& noun);
 
-/// The lines of an answer below each other, and what every answer about verdicts must say; empty ones are
-/// left out.
-std::string answer_of(std::vector<std::string> lines, const StudyFile& study);
+/// The lines of an answer below each other; empty ones are left out.
+std::string joined_lines(std::vector<std::string> lines);
 
 /// A part of something that is told with it, as a row of a table.
 template <class Whole, class Part>
@@ -144,24 +136,24 @@ std::vector<PartOf<Whole, const Part*>> parts_of(const std::vector<Whole>& all, 
   return rows;
 }
 
-/// A case with its answer, and where it lies.
-struct AnsweredCase {
+/// A case with its row, and where it lies.
+struct PlacedCase {
   const StudyFile* study;
   std::size_t index;
-  const CaseAnswer* answer;
+  const CaseRow* row;
   const std::vector<double>& coordinates() const { return study->cases.coordinates(index); }
   const std::string& label() const { return study->cases.label(index); }
   StudyCase input() const { return study->cases[index]; }
 };
-std::vector<AnsweredCase> answered(const StudyFile& study, const std::vector<CaseAnswer>& answers);
-Quantities<AnsweredCase> answered_axes(const Study& study);
+std::vector<PlacedCase> placed(const StudyFile& study, const std::vector<CaseRow>& rows);
+Quantities<PlacedCase> placed_axes(const Study& study);
 
 // --- what reads the study files of several kinds: keys, tables of published results, the scene that cases
 // start from, and [[vary]] ---
 
 // What all readers of study files speak of.
-using scene::above, scene::above_to, scene::any_number, scene::at_least, scene::between, scene::plausibly,
-    scene::required, scene::usually;
+using scene::above, scene::above_to, scene::any_number, scene::at_least, scene::between, scene::required,
+    scene::usually;
 using scene::allowed_text, scene::error_at, scene::found_text;
 using scene::Dimension, scene::Key, scene::KeyDescription, scene::Place, scene::Standing, scene::Value;
 using scene::Expected, scene::Limits, scene::range_key, scene::SceneFile;
@@ -170,7 +162,7 @@ using study::Change, study::Leaf;
 
 using StudyKeys = std::vector<Key<Study>>;
 
-// Readers of study files throw what is wrong; `read_study_table` gives it back as a value.
+// Readers of study files throw what is wrong; kinds::read_study gives it back as a value.
 
 /// What was read, or else refused; `table`: of the study file, in which it stands.
 template <class Read>
@@ -181,14 +173,11 @@ Read taken(Expected<Read> read, const std::string& table = {}) {
 
 /// Keys of every kind, with the kind itself.
 const StudyKeys& common_keys();
-/// Gaps to judge; how the critical gap is sought, and gaps are judged besides; where the constants come from;
-/// what the uncertainty of a verdict is made of, besides the mesh; other constants to compare; a file of
-/// published rows, and a line.
-StudyKeys gaps_keys(), search_keys(), judging_keys(), uncertainty_keys(), models_keys(), reference_keys();
-/// Refuses an uncertainty that is stated by hand as a bare number, "1 K".
-void check_bare_uncertainties(const toml::table& root, const StudyKeys& keys, const std::string& file);
-/// Likewise one without a source in words, and a source without its value.
-void check_stated_uncertainties(const StudyKeys& keys, const StudyFile& study);
+/// Gaps to judge; where the search for the critical gap ends; all that verdicts rest on besides: spreads,
+/// stated numerics, other constants, what is accepted; a file of published rows.
+StudyKeys gaps_keys(), search_keys(), verdict_keys(), reference_keys();
+/// Refuses a reason that is none in words, and stated numerics without value or ground.
+void check_reasons(const StudyFile& study);
 
 /// The settings of a kind as keys of the study that holds them.
 template <class Settings>
@@ -235,19 +224,9 @@ struct OverrideTable {
 Expected<std::vector<Change>> changes_in(const OverrideTable& table, const std::string& file,
                                          const std::string& written, const SceneFile& scene);
 
-/// kinds::read_study of a table; `file` is named in errors.
-Expected<StudyFile> read_study_table(const StudySource& source, const std::string& file,
-                                     std::size_t most_cases);
-
-/// Reads the scene that the study names, then the overrides, in their order, then the constants of a
-/// calibration, then the numerics that a tolerance (K, of T max) picks from the accuracy records that the
-/// study names, which are returned.
-study::AccuracyRecords settle_scene(const StudySource& source, const std::vector<OverrideTable>& overrides,
-                                    StudyFile& study);
-
-/// The acceptances of a table: those of scene keys go to the study's scene, those of its own keys beside what
-/// it states. Needs the overrides.
-void settle_acceptances(const toml::table& table, const StudyKeys& keys, StudyFile& study);
+/// Reads the scene that the study names, its constants, then the overrides, in their order, and the other
+/// constants.
+void settle_scene(const StudySource& source, const std::vector<OverrideTable>& overrides, StudyFile& study);
 
 /// Reads all entries into Study::axes. Needs the study's scene and overrides. An entry that the
 /// kind does not admit is refused.

@@ -3,8 +3,6 @@
 #include "launchsafe/kinds/sensitivity.hpp"
 #include "study_keys.hpp"
 
-#include <Eigen/LU>
-
 namespace launchsafe::kinds {
 namespace {
 
@@ -207,31 +205,6 @@ void check_constants(const VaryReader& reader) {
                   "a scene or study with constants = the file of a calibration");
 }
 
-/// Places of the fitted constants that act on the skin alone.
-std::vector<std::size_t> skin_constants(const scene::Constants& constants) {
-  std::vector<std::size_t> places;
-  for (std::size_t i = 0; i < constants.fitted_keys.size(); ++i)
-    if (scene::role_of(constants.fitted_keys[i]).acts_on == keys::ActsOn::surface) places.push_back(i);
-  return places;
-}
-
-/// Covariance of some of the constants while the others, which make the launch, stay as they are: what the
-/// published rows leave open of a skin on a given launch. Of all together they leave far more.
-std::vector<double> conditional_covariance(const scene::Constants& constants,
-                                           const std::vector<std::size_t>& places) {
-  const auto size = static_cast<Eigen::Index>(constants.fitted_keys.size());
-  using Matrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
-  const Matrix information = Eigen::Map<const Matrix>(constants.covariance.data(), size, size).inverse();
-  const auto count = static_cast<Eigen::Index>(places.size());
-  Matrix part(count, count);
-  for (Eigen::Index i = 0; i < count; ++i)
-    for (Eigen::Index j = 0; j < count; ++j)
-      part(i, j) = information(static_cast<Eigen::Index>(places[static_cast<std::size_t>(i)]),
-                               static_cast<Eigen::Index>(places[static_cast<std::size_t>(j)]));
-  const Matrix inverse = part.inverse(), conditional = 0.5 * (inverse + inverse.transpose());
-  return {conditional.data(), conditional.data() + conditional.size()};
-}
-
 /// Adds an axis for a fitted constant, whose logarithm has that standard deviation.
 void add_constant(VaryReader& reader, const std::string& name, double deviation) {
   StudyFile& study = reader.study;
@@ -253,16 +226,15 @@ void read_constants(VaryReader& reader) {
     if (key != "key") reader.refuse("key", std::string(key.str()) + " beside constants", "the key alone");
   check_constants(reader);
   const scene::Constants& constants = *reader.study.scene.constants;
-  const std::vector<std::size_t> places = skin_constants(constants);
-  const std::vector<double> covariance = conditional_covariance(constants, places);
-  auto factor = math::covariance_factor(covariance, places.size());
+  const auto [names, covariance] = scene::skin_constants(constants);
+  auto factor = math::covariance_factor(covariance, names.size());
   if (!factor)
     reader.refuse("key", "constants whose covariance is not positive definite",
                   "those of a fit that settled");
   Study& study = reader.study.study;
-  settings_of<SensitivitySettings>(study).calibrated = {study.axes.size(), places.size(), std::move(*factor)};
-  for (std::size_t i = 0; i < places.size(); ++i)
-    add_constant(reader, constants.fitted_keys[places[i]], std::sqrt(covariance[i * places.size() + i]));
+  settings_of<SensitivitySettings>(study).calibrated = {study.axes.size(), names.size(), std::move(*factor)};
+  for (std::size_t i = 0; i < names.size(); ++i)
+    add_constant(reader, names[i], std::sqrt(covariance[i * names.size() + i]));
 }
 
 }  // namespace

@@ -2,9 +2,8 @@
 #include "launchsafe/materials/charge.hpp"
 
 namespace launchsafe::materials {
-using keys::above_to, keys::ActsOn, keys::between, keys::Dimension, keys::Hotter, keys::Key, keys::KeyKind,
-    keys::always_plausible, keys::overriding, keys::plausibly, keys::then, keys::usually, keys::over_range,
-    keys::Part, keys::Role, keys::Standing, keys::Value;
+using keys::above_to, keys::acting_on, keys::ActsOn, keys::between, keys::Dimension, keys::Key,
+    keys::overriding, keys::then, keys::usually, keys::Standing, keys::Value;
 
 namespace {
 
@@ -12,46 +11,30 @@ std::vector<Key<ViscoScramParameters>> crack_keys() {
   return {
       number_key("crack_radius", Dimension::length, between(0, 1), Standing::paper,
                  "Mean crack radius c(0) before launch; 0 leaves the cracks out.",
-                 &ViscoScramParameters::initial_crack_radius) |
-          plausibly(between(1e-6, 5e-3),
-                    "grains are micrometres to millimetres large, and 0 would leave the cracks out",
-                    over_range),
+                 &ViscoScramParameters::initial_crack_radius),
       number_key("flaw_size", Dimension::length, between(0, 1), Standing::paper,
                  "Flaw size a, which cracks are measured against; 0 leaves the cracks out.",
-                 &ViscoScramParameters::flaw_size) |
-          plausibly(between(1e-5, 1e-2),
-                    "flaws are as far apart as grains to pebbles, and 0 would leave the cracks out",
-                    over_range),
-      number_key("largest_crack_radius", Dimension::length, above_to(0, 1), Standing::assumed,
-                 "Crack radius at which growth stops.", &ViscoScramParameters::largest_crack_radius) |
-          plausibly(between(1e-3, 0.1), "a smaller bound would stop what heats the charge"),
+                 &ViscoScramParameters::flaw_size),
+      number_key("largest_crack_radius", Dimension::length, between(1e-3, 1), Standing::assumed,
+                 "Crack radius at which growth stops.", &ViscoScramParameters::largest_crack_radius),
       flag_key("crack_growth", Standing::paper, "Whether cracks grow; false freezes their radius.",
-               &ViscoScramParameters::growth) |
-          plausibly(std::vector<std::string>{"true"},
-                    "cracks grow under load, and what freezes them hides heat"),
+               &ViscoScramParameters::growth),
       number_key("largest_growth_speed", Dimension::speed, above_to(0, 1e4), Standing::paper,
-                 "Limit v_max of the crack growth speed.", &ViscoScramParameters::largest_growth_speed) |
-          plausibly(between(30, 1.5e3), "cracks run at a share of the Rayleigh wave speed, 1 km/s"),
+                 "Limit v_max of the crack growth speed.", &ViscoScramParameters::largest_growth_speed),
       number_key("growth_exponent", Dimension::number, above_to(0, 100), Standing::paper,
-                 "Exponent m of slow crack growth.", &ViscoScramParameters::growth_exponent) |
-          plausibly(between(2, 50), "subcritical growth is fitted with 5 to 40"),
+                 "Exponent m of slow crack growth.", &ViscoScramParameters::growth_exponent),
       number_key("toughness", Dimension::toughness, above_to(0, 1e9), Standing::paper,
-                 "Threshold stress intensity K0 of frictionless cracks.", &ViscoScramParameters::toughness) |
-          plausibly(between(1e5, 2e6), "explosives have 0.3 to 1 MPa m^0.5"),
+                 "Threshold stress intensity K0 of frictionless cracks.", &ViscoScramParameters::toughness),
       number_key("face_friction", Dimension::number, between(0, 1.2), Standing::literature,
                  "Friction coefficient mu_s of closed crack faces, which raises the "
                  "toughness; 0 leaves it out.",
-                 &ViscoScramParameters::face_friction) |
-          plausibly(between(0, 0.8), "dry crystals rub with 0.3 to 0.6; 0 holds no crack back",
-                    keys::of_model),
+                 &ViscoScramParameters::face_friction),
       list_key("shear_moduli", Dimension::pressure, above_to(0, 1e12), Standing::paper,
                "Shear moduli G_n of the Maxwell elements.", &ViscoScramParameters::shear_moduli,
-               maxwell_elements) |
-          plausibly(between(1e6, 1e10), "no part exceeds the whole, some GPa for a crystal"),
+               maxwell_elements),
       list_key("relaxation_rates", Dimension::frequency, between(0, 1e15), Standing::paper,
                "Relaxation rates 1/tau_n of the Maxwell elements; 0 is an elastic spring.",
-               &ViscoScramParameters::relaxation_rates, maxwell_elements) |
-          plausibly(between(0, 1e9), "faster than 1 ns nothing relaxes in a launch"),
+               &ViscoScramParameters::relaxation_rates, maxwell_elements),
   };
 }
 
@@ -92,46 +75,33 @@ std::vector<Key<Charge>> heat_keys() {
   return {
       number_key("tension_cutoff", Dimension::pressure, above_to(0, 1e12), Standing::assumed,
                  "Tension that the charge bears; its pressure never falls below minus this.",
-                 &Charge::tension_cutoff) |
-          plausibly(between(1e5, 5e7), "explosives tear at 1 to 10 MPa"),
+                 &Charge::tension_cutoff),
       number_key("specific_heat", Dimension::specific_heat, between(100, 1e4), Standing::paper,
                  "Specific heat.", &Charge::specific_heat) |
-          plausibly(between(900, 2.2e3), "explosives have 1.0 to 1.4 kJ/(kg K), the published model 1.78",
-                    Role{ActsOn::heat}),
+          acting_on(ActsOn::heat),
       number_key("conductivity", Dimension::conductivity, between(0, 1e4), Standing::paper,
                  "Thermal conductivity.", &Charge::conductivity) |
-          plausibly(between(0.05, 1), "explosives have 0.1 to 0.5 W/(m K)", Role{ActsOn::conduction}),
+          acting_on(ActsOn::conduction),
       number_key("sliding_friction", Dimension::number, between(0, 10), Standing::paper,
                  "Coefficient mu_d of the friction that heats the charge.", &Charge::sliding_friction) |
-          plausibly(between(0.1, 0.8), "solids rub with 0.1 to 0.8, and 0 would leave this heat out",
-                    Role{ActsOn::trace}),
+          acting_on(ActsOn::trace),
   };
 }
 
 std::vector<Key<KineticsParameters>> kinetics_keys() {
   return {
       number_key("heat_of_reaction", Dimension::specific_energy, between(0, 1e8), Standing::paper,
-                 "Heat Q that the reaction releases.", &KineticsParameters::heat_of_reaction) |
-          plausibly(between(1e6, 1e7), "explosives release 2 to 7 MJ/kg"),
+                 "Heat Q that the reaction releases.", &KineticsParameters::heat_of_reaction),
       number_key("frequency", Dimension::frequency, between(0, 1e30), Standing::paper,
-                 "Frequency factor Z of the Arrhenius law.", &KineticsParameters::frequency) |
-          plausibly(between(1e10, 1e24), "explosives are fitted with 1e11 to 1e20 1/s"),
+                 "Frequency factor Z of the Arrhenius law.", &KineticsParameters::frequency),
       number_key("activation_temperature", Dimension::temperature_difference, above_to(0, 1e6),
                  Standing::calibrated, "Activation energy over the gas constant, E/R.",
-                 &KineticsParameters::activation_temperature) |
-          plausibly(between(1.2e4, 3.2e4), "explosives are fitted with 25 to 60 kcal/mol",
-                    Role{ActsOn::chemistry, Part::constant, Hotter::below}),
+                 &KineticsParameters::activation_temperature),
       number_key("ignition_temperature", Dimension::temperature, above_to(0, 2e3), Standing::calibrated,
                  "Temperature T1 that triggers ignition.", &KineticsParameters::ignition_temperature) |
-          usually("that of the constants") |
-          plausibly(
-              between(480, 560),
-              "Composition B explodes within seconds at 551 K, and published launches ask for 515 to 528 K",
-              Role{ActsOn::chemistry, Part::calibrated, Hotter::below}),
+          usually("that of the constants"),
       number_key("burnt_temperature", Dimension::temperature, above_to(0, 1e4), Standing::paper,
-                 "Temperature T2 at which the reaction is complete.",
-                 &KineticsParameters::burnt_temperature) |
-          plausibly(between(600, 3.5e3), "it lies between the ignition and the flame of an explosive"),
+                 "Temperature T2 at which the reaction is complete.", &KineticsParameters::burnt_temperature),
   };
 }
 
@@ -140,13 +110,11 @@ std::vector<Key<KineticsParameters>> kinetics_keys() {
 std::vector<Key<Charge>> Charge::parameters() {
   return keys::joined(
       {keys_of_part("charge.", &Charge::strength, crack_keys()),
-       keys::keys_of_part<Charge>(
-           "charge.", std::identity{},
-           {number_key("density", Dimension::density, between(500, 25e3), Standing::paper,
-                       "Density before launch.", &Charge::density) |
-            plausibly(between(1e3, 2.3e3), "pressed and cast explosives have 1.5 to 2 g/cm3")}),
+       keys::keys_of_part<Charge>("charge.", std::identity{},
+                                  {number_key("density", Dimension::density, between(500, 25e3),
+                                              Standing::paper, "Density before launch.", &Charge::density)}),
        keys_of_eos(Charge{}.eos), keys_of_part<Charge>("charge.", std::identity{}, heat_keys()),
-       keys_of_part("kinetics.", &Charge::kinetics, in_role({ActsOn::chemistry}, kinetics_keys()))});
+       keys_of_part("kinetics.", &Charge::kinetics, acting_on(ActsOn::chemistry, kinetics_keys()))});
 }
 
 }  // namespace launchsafe::materials

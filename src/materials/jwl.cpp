@@ -83,22 +83,18 @@ namespace {
 
 std::vector<Key<JwlParameters>> constants_keys() {
   const auto constant = [](const char* name, Dimension dimension, keys::Limits limits, const char* sentence,
-                           double JwlParameters::*member, keys::Limits plausible, const char* because) {
-    return number_key(name, dimension, limits, Standing::paper, sentence, member) | then(balance) |
-           plausibly(plausible, because);
+                           double JwlParameters::*member) {
+    return number_key(name, dimension, limits, Standing::paper, sentence, member) | then(balance);
   };
   return {
-      constant("jwl.a", Dimension::pressure, above_to(0, 1e17), "A of the unreacted JWL.", &JwlParameters::a,
-               between(1e12, 1e16), "unreacted explosives are fitted with 17 to 950 TPa"),
+      constant("jwl.a", Dimension::pressure, above_to(0, 1e17), "A of the unreacted JWL.", &JwlParameters::a),
       constant("jwl.b", Dimension::pressure, between(-1e12, 1e12), "B of the unreacted JWL.",
-               &JwlParameters::b, between(-5e10, 0), "unreacted explosives are fitted with -4 to -7 GPa"),
-      constant("jwl.r1", Dimension::number, above_to(0, 100), "R1 of the unreacted JWL.", &JwlParameters::r1,
-               between(6, 20), "unreacted explosives are fitted with 10 to 14"),
-      constant("jwl.r2", Dimension::number, above_to(0, 100), "R2 of the unreacted JWL.", &JwlParameters::r2,
-               between(0.5, 3), "unreacted explosives are fitted with a tenth of R1"),
+               &JwlParameters::b),
+      constant("jwl.r1", Dimension::number, above_to(0, 100), "R1 of the unreacted JWL.", &JwlParameters::r1),
+      constant("jwl.r2", Dimension::number, above_to(0, 100), "R2 of the unreacted JWL.", &JwlParameters::r2),
       constant("jwl.omega", Dimension::number, above_to(0, 10),
-               "w of the unreacted JWL; its initial energy follows from p(V = 1) = 0.", &JwlParameters::omega,
-               between(0.3, 1.5), "it is the Grueneisen coefficient of an organic solid"),
+               "w of the unreacted JWL; its initial energy follows from p(V = 1) = 0.",
+               &JwlParameters::omega),
   };
 }
 

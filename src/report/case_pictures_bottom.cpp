@@ -1,6 +1,6 @@
 // Skin temperatures along the charge's bottom, and what burns.
 #include "case_pictures_parts.hpp"
-#include "launchsafe/study/verdict.hpp"
+#include "launchsafe/study/rows.hpp"
 
 namespace launchsafe::report::detail {
 namespace {

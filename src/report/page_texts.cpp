@@ -68,9 +68,9 @@ std::string fact_text(const Row& fact) {
 /// digits may be a fact too. Besides those of numbers: "over 1" is there where a number is larger (than a
 /// fact too), "is 1" where a number or a word is that one, and "counted case" is "2 cases"; of a text "words"
 /// has blanks between them, "first 12" is its beginning and "padded 22" is as wide as that at least; of a
-/// list "list 4" are its first texts, "joined" and "and" all of them, "some" is there where it has any, "any
-/// warning fault" where a row has something under one of these, "all verdict SAFE" where all rows have that
-/// there, and "count verdict SAFE" is how many have.
+/// list "list 4" are its first texts, "and" all of them, "some" is there where it has any, "any warning
+/// fault" where a row has something under one of these, and "count verdict SAFE" is how many rows have that
+/// there.
 class Facts : public mustache::basic_context<std::string> {
  public:
   explicit Facts(std::vector<const Row*> facts) : stack_(std::move(facts)) {}
@@ -109,11 +109,9 @@ class Facts : public mustache::basic_context<std::string> {
     const auto has_value = [&](const Row& row) { return fact_text(found_in(row, digits)) == value; };
     if (form == "count") {
       made = std::ranges::count_if(fact, has_value);
-    } else if (form == "all") {
-      made = std::ranges::all_of(fact, has_value);
     } else if (form == "any") {
       made = std::ranges::any_of(fact, [&](const Row& row) { return has(row, digits) || has(row, value); });
-    } else if (form == "list" || form == "and" || form == "joined") {
+    } else if (form == "list" || form == "and") {
       std::vector<std::string> texts;
       for (const Row& each : fact) texts.push_back(fact_text(each));
       if (number > 0 && texts.size() > static_cast<std::size_t>(number)) {
@@ -125,7 +123,7 @@ class Facts : public mustache::basic_context<std::string> {
         texts.pop_back();
         texts.back() += " and " + last;
       }
-      made = fmt::format("{}", fmt::join(texts, form == "joined" ? "; " : ", "));
+      made = fmt::format("{}", fmt::join(texts, ", "));
     } else if (form == "words") {
       std::ranges::replace(made.get_ref<std::string&>(), '_', ' ');
     } else if (form == "first") {

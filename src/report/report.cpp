@@ -1,8 +1,7 @@
 #include "launchsafe/report/report.hpp"
 
 #include "launchsafe/report/study_text.hpp"
-#include "launchsafe/study/case_answer.hpp"
-#include "launchsafe/study/constants_of_study.hpp"
+#include "launchsafe/study/study_cases.hpp"
 
 namespace launchsafe::report {
 namespace {
@@ -53,27 +52,16 @@ std::vector<std::string> draw(const Report& report, const DrawingLimits& limits,
   return missing;
 }
 
-/// What verdicts rest on that somebody accepts, or would have to, and where the calibration is extrapolated.
-void add_acceptances(const study::AcceptancesOfStudy& all, nlohmann::ordered_json& head) {
-  const auto add = [&head](const char* member, const std::vector<scene::Implausible>& values) {
-    head[member] = nlohmann::ordered_json::array();
-    for (const scene::Implausible& each : values)
-      head[member].push_back({{"key", each.key},
-                              {"value", each.accepted() ? each.accepted_value : each.value},
-                              {"because", each.because}});
-  };
-  add("accepted", all.accepted);
-  add("not_accepted", all.missing);
-  head["extrapolated"] = all.extrapolated;
-}
-
-/// Shares of the uncertainty that the study neither states nor has a record of, by the keys that state them.
-nlohmann::ordered_json assumed_json(const study::Study& study) {
-  auto assumed = nlohmann::ordered_json::object();
-  if (!std::isfinite(study.input_uncertainty)) assumed["input_uncertainty"] = true;
-  if (study.accuracy.empty() && !std::isfinite(study.numerical_uncertainty))
-    assumed["numerical_uncertainty"] = true;
-  return assumed;
+/// Stated spreads (two standard deviations), numerics and other constants.
+void add_uncertainties(const study::Study& study, nlohmann::ordered_json& head) {
+  head["spreads"] = {{"peak_pressure", study.spreads.peak_pressure},
+                     {"pulse_length", study.spreads.pulse_length},
+                     {"initial_temperature_K", study.spreads.initial_temperature}};
+  head["numerics"] = nullptr;
+  if (study.numerics.is_stated())
+    head["numerics"] = {{"K", study.numerics.error}, {"because", study.numerics.because}};
+  head["models"] = nlohmann::ordered_json::array();
+  for (const auto& model : study.models) head["models"].push_back(study::name_of_model(*model));
 }
 
 store::SqlValue sql_value(const Cell& cell) {
@@ -141,15 +129,7 @@ std::string study_json(const study::StudyFile& study, const Report& report,
                               {"study", study_file_name(study)}, {"title", report.title},
                               {"answer", report.answer},         {"kinetics", kinetics_json(study.scene)}};
   head.update(members);
-  for (const study::StatedUncertainty& each : study.study.stated)
-    head["stated_by_hand"].push_back(
-        {{"key", each.key}, {"K", each.value}, {"assumed_K", each.assumed}, {"because", each.because}});
-  if (study.study.kind.gives_verdicts) {
-    head["assumed"] = assumed_json(study.study);
-    head["models"] = nlohmann::ordered_json::array();
-    for (const auto& model : study.study.models) head["models"].push_back(study::name_of_model(*model));
-    add_acceptances(study::acceptances_of(study), head);
-  }
+  if (study.study.kind.gives_verdicts) add_uncertainties(study.study, head);
   for (const Picture* picture : items_of<Picture>(report))
     head["pictures"].push_back({{"file", picture->file}, {"shows", picture->alternative}});
   // What is not UTF-8, such as an odd name of a file, is replaced.

@@ -81,13 +81,13 @@ StudyEvidence read_study(const path& folder, std::size_t number) {
 
 // --- all studies ---
 
-/// Whether scenes that differ in a key are of different shells. Loads, cracks, gaps, interfaces, numerics and
-/// what constants files hold, a yield stress among it, are what studies vary.
-bool is_of_shell(const std::string& key) {
-  if (key == "charge.crack_radius" || key == "charge.flaw_size") return false;
-  if (scene::shipped_constants().front()->values.contains(key)) return false;
-  return key == scene::foreign_shell || key.starts_with("steel.") || key.starts_with("charge.") ||
-         key.starts_with("elastic.") || key.starts_with("material.");
+/// Whether scenes that differ in a key, or in their bodies, are of different shells. Studies vary loads,
+/// cracks, gaps, interfaces, numerics and the keys of constants files.
+bool is_of_shell(const std::string& name) {
+  if (name == "charge.crack_radius" || name == "charge.flaw_size") return false;
+  if (scene::shipped_constants().front()->values.contains(name)) return false;
+  return name == "body" || name.starts_with("steel.") || name.starts_with("charge.") ||
+         name.starts_with("elastic.") || name.starts_with("material.");
 }
 
 /// One study of a kind, and all of one shell.
@@ -100,15 +100,11 @@ void compare_studies(SafetyEvidence& evidence) {
     if (&*first != &study)
       refuse(fmt::format("{} and {}: both are studies of kind {}; allowed: one of each kind",
                          first->folder.string(), study.folder.string(), study.kind));
-    // One about the program, and not about a launch, has scenes of its own.
+    // A study of the program itself has scenes of its own.
     if (&study == &main || study.tells == tells::stability) continue;
     study.differences = study::differences(study.scene.scene, main.scene.scene);
-    const auto said_by = [](const scene::Acceptance& one) { return one.key + "=" + one.value; };
-    if (!std::ranges::equal(study.scene.scene.accepted, main.scene.scene.accepted, {}, said_by, said_by))
-      study.differences.push_back({{.name = "accept"}, {}, {}});
     std::vector<std::string> of_shell;
-    for (const study::Difference& each : study.differences)
-      if (is_of_shell(each.key.name)) of_shell.push_back(each.key.name);
+    std::ranges::copy_if(study.differences, std::back_inserter(of_shell), is_of_shell);
     if (!of_shell.empty())
       refuse(
           fmt::format("the studies concern different shells: {} \"{}\", {} \"{}\", which differ in {}; "
@@ -160,17 +156,6 @@ std::vector<CaseEvidence> cases_of(const StudyEvidence& study) {
     cases.push_back(std::move(each));
   }
   return cases;
-}
-
-std::optional<double> largest_safe_gap(std::vector<Row> verdicts) {
-  const auto gap = [](const Row& verdict) { return number_of(verdict, "gap_cm"); };
-  std::ranges::stable_sort(verdicts, {}, gap);
-  std::optional<double> largest;
-  for (const Row& each : verdicts) {
-    if (text_of(each, "verdict") != "SAFE") break;
-    largest = gap(each);
-  }
-  return largest;
 }
 
 double own_value(const StudyEvidence& study, const std::string& key) {

@@ -4,7 +4,6 @@
 #include "launchsafe/report/safety_report.hpp"
 #include "launchsafe/report/study_text.hpp"
 #include "launchsafe/scene/plan.hpp"
-#include "launchsafe/study/verdict.hpp"
 
 namespace launchsafe::report {
 namespace {
@@ -124,18 +123,6 @@ Row picture_facts(const StudyEvidence& study, const Row& own, const run::CaseRes
 
 // --- studies ---
 
-/// The setting of an accuracy study whose uncertainty stands in the main study's input, or else the scene's
-/// own where that study has no variants; nothing where the main study took the record of none.
-Row setting_of(const StudyEvidence& main, const StudyEvidence& accuracy) {
-  const std::string taken = quantity::recorded_uncertainty.key();
-  for (const Row& row : accuracy.rows("settings"))
-    for (const Row& each : main.rows("cases"))
-      if (number_of(each, taken) == number_of(row, "temperature_bound_K")) return row;
-  for (const Row& row : accuracy.rows("settings"))
-    if (text_of(row, "is_scene") == "yes" && !row.contains("variant")) return row;
-  return {};
-}
-
 /// "peak pressure 250 to 700 MPa", ...: what a study varies.
 Row covered_by(const StudyEvidence& study) {
   Row covered = Row::array();
@@ -147,11 +134,9 @@ Row covered_by(const StudyEvidence& study) {
   return covered;
 }
 
-/// Of a study, without its tables: its manifest, but for its input, and what else is told of it.
-Row about(const StudyEvidence& study, const StudyEvidence& main) {
+/// Of a study, without its tables: its manifest, but for its input, and how it differs from the main study.
+Row about(const StudyEvidence& study) {
   Row facts = store::to_json(study.record);
-  // The record that it wrote is the main study's by a bound that the cases took from it.
-  const bool has_record = study.tells == tells::accuracy, is_used = !setting_of(main, study).is_null();
   facts.erase("input");
   facts.update({{"label", study.label},
                 {"kind", study.kind},
@@ -159,21 +144,13 @@ Row about(const StudyEvidence& study, const StudyEvidence& main) {
                 {"command", study.command()},
                 {"other_programs", study.record.other_programs()},
                 {"scene_title", study.scene.scene.title},
-                {"held", interfaces_of(study.scene.scene)},
                 {"covers", covered_by(study)},
                 {"finished", study.finished()},
-                {"record_used", !has_record ? ""
-                                : is_used   ? "yes"
-                                            : "no"},
                 {"own_scenes", study.tells == tells::stability},
-                {"all_differences", Row::array()},
-                {"differences", Row::array()},  // what a scene writes out changes no number
-                {"calibrated_by_record", study.asked.contains("calibration")}});
-  for (const study::Difference& each : study.differences) {
-    facts["all_differences"].push_back(each.key.name);
-    if (each.key.name != "title" && !each.key.name.starts_with("output."))
-      facts["differences"].push_back(each.key.name);
-  }
+                {"all_differences", study.differences},
+                {"differences", Row::array()}});  // those that change numbers
+  for (const std::string& name : study.differences)
+    if (name != "title" && !name.starts_with("output.")) facts["differences"].push_back(name);
   return facts;
 }
 
@@ -192,21 +169,13 @@ bool is_confirmed(const CaseEvidence& judged) {
 
 /// cm: the largest gap that is SAFE in every case. Nothing where a case has none.
 Row largest_safe_in_all(const std::vector<CaseEvidence>& cases) {
-  Row smallest;
+  double smallest = math::infinity;
   for (const CaseEvidence& each : cases) {
-    const auto rows = study::of_each(each.verdicts, [](const Row* verdict) { return *verdict; });
-    const std::optional<double> largest = largest_safe_gap(rows);
-    if (!largest) return {};
-    if (smallest.is_null() || *largest < smallest.get<double>()) smallest = *largest;
+    const double largest = number_of(*each.critical, "largest_safe_gap_cm");
+    smallest = std::isnan(largest) ? largest : std::min(largest, smallest);
+    if (std::isnan(largest)) break;
   }
-  return smallest;
-}
-
-/// Whether nothing says how wrong a row is: its uncertainty is then no number to hold a margin against.
-bool is_uncertain(const Row* verdict) {
-  const std::string code = text_of(*verdict, quantity::reason_code.key());
-  return code == to_string(study::ReasonCode::validity_warning) ||
-         code == to_string(study::ReasonCode::unaccepted);
+  return std::isfinite(smallest) ? Row(smallest) : Row();
 }
 
 /// The row of a case, and how its verdicts came out.
@@ -219,34 +188,24 @@ Row told_case(const CaseEvidence& judged) {
   return row;
 }
 
-/// A verdict row as its table shows it, rounded to the safe side. What a run was like until it was cut off is
-/// no margin, nor is anything after ignition, when T max is that of the burning skin.
+/// A verdict row as its table shows it, rounded to the safe side. A run that was cut off has no numbers of
+/// the launch; after ignition T max is that of the burning skin.
 Row told_verdict(const CaseEvidence& judged, const Row& verdict) {
   Row row = verdict;
   const bool ignited = !text_of(row, "ignition_cause").empty();
-  const double margin = ignited ? study::not_a_number : number_of(row, "margin_K"),
-               known = ignited || is_uncertain(&row) ? study::not_a_number : number_of(row, "uncertainty_K");
+  const double uncertainty = ignited ? study::not_a_number : number_of(row, "uncertainty_K"),
+               margin = ignited ? study::not_a_number : number_of(row, "margin_K");
   const int decimals = decimals_for(number_of(row, "uncertainty_K"));
   const auto told = [&](double value) {
     return judged.completed() && std::isfinite(value) ? Row(value) : Row();
   };
   row["case"] = judged.label;
+  row["accepted"] = text_of(*judged.critical, "accepted");
   row["temperature_max_K"] = told(number_of(row, "temperature_max_K"));
   row["margin_K"] = told(rounded_down(margin, decimals));
-  row["uncertainty_K"] = told(rounded_up(known, decimals));
-  row["margin_over_uncertainty"] = told(rounded_down(margin / known, 1));
-  if (text_of(*judged.critical, "critical_gap_kind") == "value")
-    row["distance_cm"] = told(
-        rounded_down(number_of(*judged.critical, "critical_gap_lower_cm") - number_of(row, "gap_cm"), 3));
-  // The rest of the reason.
-  for (const char* clause : {"limited", "failed_models"})
-    if (std::string text = text_of(row, clause); !text.empty()) row["beside"].push_back(std::move(text));
-  // These tell what is extrapolated themselves.
-  if (const std::string reason = text_of(row, "reason_code");
-      reason == "validity-warning" || reason == "unaccepted")
-    row.erase("extrapolated");
-  for (const char* clause : {"extrapolated", "accepted"})
-    if (!text_of(row, clause).empty()) row["beside"].push_back(clause);
+  row["uncertainty_K"] = told(rounded_up(uncertainty, decimals));
+  row["distance_cm"] =
+      told(rounded_down(number_of(*judged.critical, "critical_gap_cm") - number_of(row, "gap_cm"), 3));
   return row;
 }
 
@@ -265,9 +224,6 @@ Row answer_of(const StudyEvidence& study, const std::vector<CaseEvidence>& cases
   return {{"study", study.label},
           {"finished", study.finished()},
           {"largest_safe_gap_cm", largest_safe_in_all(cases)},
-          {"smallest_is_zero",
-           std::ranges::any_of(study.rows("verdicts"),
-                               [](const Row& verdict) { return number_of(verdict, "gap_cm") == 0.0; })},
           {"cases", study::of_each(cases, told_case)}};
 }
 
@@ -286,7 +242,6 @@ void add_launch(const SafetyEvidence& evidence, const std::vector<CaseEvidence>&
   facts["is_own"] = own.is_own();
   facts["told"] = cases.size() == 1 || own.is_own();
   facts["completed"] = own.completed();
-  facts["certain"] = own.completed() && !std::ranges::all_of(own.verdicts, is_uncertain);
   for (const Row* picture :
        selected({"", "", "launch.pictures begins file temperature with svg first 1"}, all.facts))
     all.facts["verdict_picture"] = *picture;
@@ -312,7 +267,7 @@ PageFacts facts_of(const SafetyEvidence& evidence) {
   PageFacts all;
   Row& facts = all.facts;
   for (const StudyEvidence& study : evidence.studies) {
-    const Row told = about(study, main);
+    const Row told = about(study);
     facts["studies"].push_back(told);
     // With its tables.
     Row tables = study.finished() ? study.study : Row::object();
@@ -327,13 +282,7 @@ PageFacts facts_of(const SafetyEvidence& evidence) {
   facts["temperature"] = temperature_text(main, cases);
   facts["several"] = cases.size() > 1;
   facts["answer"] = answer_of(main, of_launch ? cases : std::vector<CaseEvidence>{});
-  for (std::size_t kind = 0; kind < study::share_kinds; ++kind)
-    for (Row& share : facts["main"]["gap_shares"])
-      if (const auto& traits = study::traits_of(study::ShareKind(kind)); share["cause"] == traits.title)
-        share["remedy"] = traits.remedy;
   if (of_launch) add_launch(evidence, cases, all);
-  if (const StudyEvidence* accuracy = evidence.find(tells::accuracy))
-    facts["setting"] = setting_of(main, *accuracy);
   const auto rows = [&](const char* of) { return selected({"", "", of}, facts); };
   double worst = 0;
   for (const Row* row : rows("main.comparison except used_for fitted"))

@@ -181,8 +181,6 @@ Row kinetics_json(const scene::SceneFile& file) {
 std::string setup_text(const study::StudyFile& study) {
   Row facts{{"study", study_file_name(study)},
             {"scene", study.study.scene},
-            {"accuracy", study.study.accuracy},
-            {"setting", study.chosen_setting},
             {"measured", scene::smoothing_text(study.scene.scene.load)},
             {"kinetics", kinetics_json(study.scene)}};
   for (const auto& [key, value] : study.overrides)

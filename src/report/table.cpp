@@ -38,7 +38,8 @@ std::string cell_text(const Cell& cell, const Column& column) {
   return {};
 }
 
-/// What people read: the cells as text, the headings first, and below it what several rows say alike.
+/// What people read: the cells as text, the headings first, without columns that are empty in all rows, and
+/// below it what several rows say alike.
 struct Grid {
   std::vector<Column> columns;
   std::vector<std::vector<std::string>> lines;
@@ -77,10 +78,9 @@ Grid grid_of(const Table& table, Escape escape) {
     const Column& column = table.columns[place];
     std::vector<std::string> cells;
     for (const auto& row : table.rows) cells.push_back(cell_text(row[place], column));
-    const std::size_t said = grid.below.size();
     if (is_text(column)) share_sentences(column.label(), cells, grid.below);
     const auto is_empty = [](const std::string& cell) { return cell.empty(); };
-    if (grid.below.size() > said && std::ranges::all_of(cells, is_empty)) continue;
+    if (!cells.empty() && std::ranges::all_of(cells, is_empty)) continue;
     grid.columns.push_back(column);
     grid.lines.front().push_back(escape(column.label()));
     for (std::size_t i = 0; i < cells.size(); ++i) grid.lines[i + 1].push_back(escape(cells[i]));

@@ -9,20 +9,19 @@ constexpr int blue = 0, vermilion = 1, green = 2, orange = 4, black = 6;
 
 bool ignites(const Row& verdict) { return !text_of(verdict, "ignition_cause").empty(); }
 
-/// Gaps of one verdict that do not ignite, with their uncertainty: the model form, whose sign is known,
-/// counts upwards alone, and nothing is colder than the launch began (K). A bar whose end is not known goes
-/// on.
+/// Gaps of one verdict that do not ignite, with their uncertainty. Nothing is colder than the launch began
+/// (K). A bar whose end is not known goes on.
 Series judged_series(const Row& verdicts, const std::string& word, const std::string& label, int colour,
                      double initial) {
   Series series{.label = label, .style = Style::vertical_bars, .colour = colour, .mark = Mark::circle};
   for (const Row& row : verdicts) {
-    const double temperature = number_of(row, "temperature_max_K");
+    const double temperature = number_of(row, "temperature_max_K"),
+                 uncertainty = number_of(row, "uncertainty_K");
     if (text_of(row, "verdict") != word || ignites(row) || !std::isfinite(temperature)) continue;
-    const double uncertainty = number_of(row, "uncertainty_K"),
-                 below = uncertainty - number_of(row, "uncertainty_of_model_form_K");
+    const bool known = std::isfinite(uncertainty);
     series.add(number_of(row, quantity::gap.key()), temperature,
-               std::isfinite(below) ? std::max(temperature - below, initial) : temperature,
-               std::isfinite(uncertainty) ? temperature + uncertainty : math::infinity);
+               known ? std::max(temperature - uncertainty, initial) : temperature,
+               known ? temperature + uncertainty : math::infinity);
   }
   return series;
 }
@@ -36,14 +35,14 @@ Series points_of(const Row& rows, const char* temperature, Series look) {
 }
 
 /// "SAFE up to 0.01 cm; critical gap 0.038 +0.010 −0.011 cm".
-std::string finding_of(const Row& verdicts, const Row& critical, const std::string& safe) {
-  const auto largest = largest_safe_gap({verdicts.begin(), verdicts.end()});
-  return fmt::format(
-      "{}; critical gap {}",
-      largest ? fmt::format("{}{} up to {} cm", safe, safe.find(',') == std::string::npos ? "" : ",",
-                            significant(*largest, 6))
-              : "No computed gap is SAFE",
-      text_of(critical, "critical_gap_with_bounds"));
+std::string finding_of(const Row& critical, const std::string& safe) {
+  const double largest = number_of(critical, "largest_safe_gap_cm");
+  return fmt::format("{}; critical gap {}",
+                     std::isnan(largest) ? "No computed gap is SAFE"
+                                         : fmt::format("{}{} up to {} cm", safe,
+                                                       safe.find(',') == std::string::npos ? "" : ",",
+                                                       significant(largest, 6)),
+                     text_of(critical, "critical_gap_with_bounds"));
 }
 
 /// With its bounds; where these go far beyond all other gaps the axis ends before, and words say where they
@@ -52,7 +51,7 @@ void add_critical_gap(const Row& critical, Plot& plot) {
   const double value = number_of(critical, "critical_gap_cm"),
                at_least = number_of(critical, "critical_gap_at_least_cm"),
                at_most = number_of(critical, "critical_gap_at_most_cm");
-  if (text_of(critical, "critical_gap_kind") != "value") return;
+  if (!std::isfinite(value)) return;
   plot.vertical_lines = {{value, "critical gap"}};
   const auto known = measured_gap(value, at_least, at_most);
   if (!known) return;
@@ -71,11 +70,10 @@ void add_critical_gap(const Row& critical, Plot& plot) {
 Plot verdict_plot(const Row& tables, const scene::Scene& scene) {
   const double initial = scene.initial_temperature, ignition = scene.charge().kinetics.ignition_temperature;
   const Row &verdicts = found_in(tables, "verdicts"), &critical = found_in(tables, "cases").front();
-  const bool is_green =
-      std::ranges::all_of(verdicts, [](const Row& row) { return text_of(row, "accepted").empty(); });
-  // What the word rests on stands beside it wherever a picture goes.
+  const bool is_green = text_of(critical, "accepted").empty();
+  // A picture may be shown without its page.
   const std::string safe = is_green ? "SAFE" : "SAFE, as somebody accepts";
-  Plot plot{.title = finding_of(verdicts, critical, safe),
+  Plot plot{.title = finding_of(critical, safe),
             .x = {.label = quantity::gap.label()},
             .y = {.label = quantity::temperature_max.label()},
             .width = 1100,

@@ -2,31 +2,14 @@
 #include "launchsafe/report/study_text.hpp"
 #include "launchsafe/scene/constants.hpp"
 #include "launchsafe/scene/plan.hpp"
-#include "launchsafe/study/case_answer.hpp"
-#include "launchsafe/study/constants_of_study.hpp"
 #include "launchsafe/study/study_cases.hpp"
+
+#include <set>
 
 namespace launchsafe::report {
 namespace {
 
-using keys::fixed, keys::text;
-
-Column share_of_uncertainty(std::string name, std::string heading, std::string meaning) {
-  return always({"uncertainty_of_" + std::move(name), std::move(heading), keys::significant(2, kelvin),
-                 std::move(meaning)});
-}
-
-/// What the judgement of a gap rests on, for programs: empty where there is nothing to say.
-Quantity<study::GapVerdict> evidence_quantity(const char* name, std::string (*said)(const study::GapVerdict&),
-                                              const char* meaning) {
-  return {for_programs(Column{name, name, text(), meaning}), said};
-}
-
-/// What the input of the case says.
-template <auto said>
-std::string of_input(const study::GapVerdict& row) {
-  return row.of_case == nullptr ? std::string{} : said(row.of_case->input);
-}
+using keys::fixed, keys::significant, keys::text;
 
 /// The charge off the grid lines, in the scene of a study or in those of its cases, which may have meshes and
 /// bodies of their own.
@@ -45,133 +28,131 @@ void add_off_grid(const study::StudyFile& study, Row& facts) {
   facts["count"] = count;
 }
 
+/// Adds name = "..." for what is open and may be accepted, each name once.
+void add_lines(const std::vector<study::CaseRow>& rows, std::vector<study::Remark> study::CaseRow::*remarks,
+               const char* heading, std::vector<std::string>& lines) {
+  std::set<std::string> names;
+  for (const study::CaseRow& row : rows)
+    for (const study::Remark& each : row.*remarks)
+      if (each.is_open() && each.acceptable) names.insert(each.name);
+  if (!names.empty()) lines.emplace_back(heading);
+  for (const std::string& name : names) lines.push_back(name + " = \"...\"");
+}
+
 /// One cause that makes the critical gap of a case uncertain.
-struct ShareRow {
-  const NamedGap* of;
-  const study::GapShare* share;
+struct CauseRow {
+  const NamedCase* of;
+  const study::CauseShare* share;
+  const study::CauseTraits& traits() const { return study::traits_of(share->cause); }
 };
 
-const Quantities<ShareRow> share_quantities{
-    {quantity::case_name, [](const ShareRow& row) { return row.of->label; }},
-    {"cause", "cause", text(), "What is uncertain.",
-     [](const ShareRow& row) { return study::traits_of(row.share->kind).title; }},
-    {"class", "class", text(), "Whether it scatters at random or is not known better.",
-     [](const ShareRow& row) { return study::traits_of(row.share->kind).of_class; }},
-    {"raised", "critical gap towards ignition", text(), "Critical gap with the cause at its worse end.",
-     [](const ShareRow& row) { return gap_text(row.share->raised); }},
-    {"lowered", "at the other end", text(), "Critical gap with the cause at its better end.",
-     [](const ShareRow& row) { return gap_text(row.share->lowered); }},
-    {"lowers", "lowers the bound by", keys::significant(2, centimetre),
-     "By how much the cause moves the critical gap towards ignition.",
-     [](const ShareRow& row) { return study::move_towards_ignition(row.of->gap->lower, *row.share); }}};
+const Quantities<CauseRow> cause_quantities{
+    {quantity::case_name, &CauseRow::of, &NamedCase::label},
+    {"cause", "cause", text(), "What makes the critical gap uncertain.", &CauseRow::traits,
+     &study::CauseTraits::title},
+    {"class", "class", text(), "random: differs from launch to launch; bound: unknown, but fixed.",
+     [](const CauseRow& row) { return std::string(row.traits().random ? "random" : "bound"); }},
+    {"shorter", "shorter by", significant(2, centimetre),
+     "By how much the cause may shorten the critical gap.", &CauseRow::share, &study::CauseShare::shorter},
+    {"longer", "longer by", significant(2, centimetre),
+     "By how much the cause may lengthen the critical gap.", &CauseRow::share, &study::CauseShare::longer},
+    {for_programs(Column{"remedy", "remedy", text(), "What would make the share smaller."}),
+     &CauseRow::traits, &study::CauseTraits::remedy}};
 
 }  // namespace
 
-Quantities<study::GapVerdict> verdict_quantities(const study::Study& study) {
-  using study::GapVerdict, study::Judgement, study::NamedIgnition, study::Peak, study::Uncertainty,
-      surface::AirEnergy;
+Quantities<JudgedGap> verdict_quantities(const study::Study& study) {
+  using study::GapRow, study::Judgement, study::NamedIgnition, study::Peak, surface::AirEnergy;
   using namespace quantity;
-  return {
-      {temperature_max, &GapVerdict::maximum, &Peak::temperature},
-      {temperature_max_place, &GapVerdict::maximum, &Peak::point},
-      {temperature_max_time, &GapVerdict::maximum, &Peak::time},
-      {temperature_early(study.early_time), &GapVerdict::early, &Peak::temperature},
+  const Quantities<GapRow> temperatures{
+      {temperature_max, &GapRow::maximum, &Peak::temperature},
+      {temperature_max_place, &GapRow::maximum, &Peak::point},
+      {temperature_max_time, &GapRow::maximum, &Peak::time},
+      {temperature_early(study.early_time), &GapRow::early, &Peak::temperature},
       {for_programs(Column{"spread", "spread", fixed(1, kelvin),
-                           "Hottest less coldest station at the end of what is read."}),
-       &GapVerdict::spread},
-      {always({"margin", "margin", fixed(2, kelvin), "Ignition temperature less T max."}),
-       &GapVerdict::margin},
-      {always(uncertainty), &GapVerdict::uncertainty, &Uncertainty::total},
-      {share_of_uncertainty("computation", "of computation",
-                            "Of it: sampling, integration, mesh, step, scaling, and sliding on the base."),
-       &GapVerdict::uncertainty, &Uncertainty::computed},
-      {share_of_uncertainty("fit", "of fit", "Of it: how well the calibrated constants are known."),
-       &GapVerdict::uncertainty, &Uncertainty::fit},
-      {share_of_uncertainty("inputs", "of inputs", "Of it: how well load, gap and others are known."),
-       &GapVerdict::uncertainty, &Uncertainty::inputs},
-      {share_of_uncertainty("model_form", "of model form",
-                            "Share by which launches under other constants move towards ignition."),
-       &GapVerdict::uncertainty, &Uncertainty::model_form},
-      {verdict, &GapVerdict::judgement, &Judgement::verdict},
-      {reason, study::reason_text},
-      {for_programs(reason_code), &GapVerdict::judgement, &Judgement::code},
-      evidence_quantity("cause", study::cause_text, "The beginning of the reason: what decided."),
-      evidence_quantity("validity_warnings", study::validity_warnings_text,
-                        "Why a completed run is no basis."),
-      evidence_quantity("unaccepted", of_input<study::unaccepted_text>,
-                        "What is not plausible, or foreign to the calibration, and nobody accepts."),
-      evidence_quantity("accepted", of_input<study::accepted_text>,
-                        "What somebody accepts of that, and why."),
-      evidence_quantity("limited", study::limiters_text, "Limiters that acted."),
-      evidence_quantity("failed_models", study::failed_models_text,
-                        "Launches under other constants that failed."),
-      evidence_quantity("extrapolated", study::extrapolated_text,
-                        "What lies outside the domain of the calibration."),
+                           "Hottest less coldest station at the muzzle exit, or at the end without one."}),
+       &GapRow::spread},
+      {always({"margin", "margin", fixed(2, kelvin), "Ignition temperature less T max."}), &GapRow::margin},
+      {always(uncertainty), &GapRow::uncertainty},
+      {verdict, &GapRow::judgement, &Judgement::verdict}};
+  const Quantities<GapRow> effects{
+      {for_programs(reason_code), &GapRow::judgement, &Judgement::code},
       {for_people(Column{"ignition", "ignition", text(), "Cause, instant and station of ignition."}),
-       &GapVerdict::ignition,
+       &GapRow::ignition,
        [](const NamedIgnition& ignition) {
          return fmt::format("{} at {}, {}", study::to_string(ignition.cause),
                             in_words(ignition.time, quantity::ignition_time.form), ignition.point);
        }},
-      {for_programs(Column{"ignition_cause", "ignition cause", text(), "What began it."}),
-       &GapVerdict::ignition, [](const NamedIgnition& ignition) { return study::to_string(ignition.cause); }},
-      {for_programs(ignition_time), &GapVerdict::ignition, &NamedIgnition::time},
+      {for_programs(Column{"ignition_cause", "ignition cause", text(), "Cause of ignition."}),
+       &GapRow::ignition, [](const NamedIgnition& ignition) { return study::to_string(ignition.cause); }},
+      {for_programs(ignition_time), &GapRow::ignition, &NamedIgnition::time},
       {for_programs(Column{"ignition_place", "ignition at", text(), "Station that ignites."}),
-       &GapVerdict::ignition, &NamedIgnition::point},
+       &GapRow::ignition, &NamedIgnition::point},
       {for_programs(Column{"ignition_chemical_share", "chemical share", fixed(3),
                            "Share of reaction in the heating rate at ignition."}),
-       &GapVerdict::ignition, &NamedIgnition::chemical_share},
-      {for_programs(skin_took), &GapVerdict::air, &AirEnergy::taken},
-      {for_programs(compression_supplies), &GapVerdict::air, &AirEnergy::supplied},
-      {for_programs(taken_over_supplied), &GapVerdict::air, &AirEnergy::ratio}};
+       &GapRow::ignition, &NamedIgnition::chemical_share},
+      {"ignition_after_launch", "ignites after the launch", significant(3, millisecond),
+       "Time from the end of the launch to ignition of a skin that only its own reaction heats.",
+       &GapRow::ignition_after_launch},
+      {for_programs(skin_took), &GapRow::air, &AirEnergy::taken},
+      {for_programs(compression_supplies), &GapRow::air, &AirEnergy::supplied},
+      {for_programs(taken_over_supplied), &GapRow::air, &AirEnergy::ratio}};
+  return keys::joined<JudgedGap>(
+      {of_part<JudgedGap>(temperatures, &JudgedGap::gap),
+       {{reason, [](const JudgedGap& row) { return study::reason_text(*row.of, *row.gap); }}},
+       of_part<JudgedGap>(effects, &JudgedGap::gap)});
 }
 
 Quantities<study::CriticalGap> critical_gap_quantities() {
-  using study::CriticalGap, keys::significant;
-  return {{for_programs(quantity::critical_gap_kind), &CriticalGap::kind},
+  return {{for_programs(quantity::critical_gap_kind), &study::CriticalGap::kind},
           {for_programs(quantity::critical_gap), value_of},
-          {quantity::critical_gap_reads_as, reads_as},
-          {for_programs(Column{"critical_gap_lower", "no ignition", significant(6, centimetre),
-                               "Lower end of the bracket: the largest gap there that does not ignite."}),
-           &CriticalGap::lower},
-          {for_programs(Column{"critical_gap_upper", "ignites", significant(6, centimetre),
-                               "Upper end of the bracket: the smallest gap there that ignites."}),
-           &CriticalGap::upper}};
+          {quantity::critical_gap_reads_as, reads_as}};
 }
 
-Quantities<study::CriticalGap> bounded_gap_quantities() {
-  return keys::joined<study::CriticalGap>(
-      {critical_gap_quantities(),
-       {{"critical_gap_at_least", "at least", keys::significant(3, centimetre),
-         "Lower bound of the critical gap: what is below it is SAFE.", &study::CriticalGap::bounds,
-         &study::GapBounds::at_least},
-        {"critical_gap_at_most", "at most", keys::significant(3, centimetre),
-         "Upper bound of the critical gap.", &study::CriticalGap::bounds, &study::GapBounds::at_most},
+Quantities<study::CaseRow> case_quantities() {
+  using study::CaseRow, study::GapBounds;
+  const auto names = [](const std::vector<study::Remark>& remarks) { return study::names_text(remarks); };
+  return keys::joined<CaseRow>(
+      {of_part<CaseRow>(critical_gap_quantities(), &CaseRow::critical),
+       {{"critical_gap_at_least", "at least", significant(3, centimetre),
+         "Lower bound of the critical gap: gaps below it are SAFE.", &CaseRow::bounds, &GapBounds::at_least},
+        {"critical_gap_at_most", "at most", significant(3, centimetre), "Upper bound of the critical gap.",
+         &CaseRow::bounds, &GapBounds::at_most},
         {for_programs(Column{"critical_gap_with_bounds", "critical gap with its bounds", text(),
-                             "How it is quoted, in digits that its bounds bear."}),
-         measured_text}}});
+                             "The critical gap in the digits that its bounds justify."}),
+         measured_text},
+        {"basis", "basis", text(), "calibrated, or extrapolated outside an interval of the constants.",
+         &CaseRow::basis},
+        {"warnings", "warnings", text(), "Names of the validity warnings.", &CaseRow::warnings, names},
+        {"extrapolated", "extrapolated", text(), "Intervals of the constants that the case lies outside of.",
+         &CaseRow::extrapolated, names},
+        {"accepted", "accepted", text(), "Warnings and intervals that the study accepts, with its reasons.",
+         study::accepted_text},
+        {for_programs(Column{"incomplete", "incomplete", text(),
+                             "Launches beside the case's own that did not complete; it has no bounds."}),
+         &CaseRow::incomplete}}});
 }
 
-std::vector<std::string> mesh_notes(const study::StudyFile& study) {
-  const auto numerical = study::numerical_uncertainty_of(study);
-  Row facts{{"assumed", numerical.assumed}, {"largest_K", numerical.largest}, {"source", numerical.source}};
-  for (const study::StatedUncertainty& each : study.study.stated)
-    facts["stated"].push_back({{"first", facts["stated"].empty()},
-                               {"key", each.key},
-                               {"K", each.value},
-                               {"assumed_K", each.assumed},
-                               {"because", each.because}});
-  facts["no_models"] = study.study.kind.gives_verdicts && study.study.models.empty();
+std::vector<std::string> acceptances_to_write(const std::vector<study::CaseRow>& rows) {
+  std::vector<std::string> lines;
+  add_lines(rows, &study::CaseRow::warnings, "[accept]", lines);
+  add_lines(rows, &study::CaseRow::extrapolated, "[accept.extrapolation]", lines);
+  return lines;
+}
+
+std::vector<std::string> verdict_notes(const study::StudyFile& study,
+                                       const std::vector<study::CaseRow>& rows) {
+  Row facts;
+  if (study.study.kind.gives_verdicts) {
+    const study::StatedNumerics& numerics = study.study.numerics;
+    if (numerics.is_stated()) facts["numerics"] = {{"K", numerics.error}, {"because", numerics.because}};
+    facts["no_models"] = study.study.models.empty();
+    facts["no_velocity"] = !study.scene.scene.load.expected_velocity;
+    if (const auto lines = acceptances_to_write(rows); !lines.empty())
+      facts["lines"] = fmt::format("\n\n    {}", fmt::join(lines, "\n    "));
+  }
   add_off_grid(study, facts);
-  // What nobody accepts, as a file would say it; the first where many cases have values of their own.
-  constexpr std::size_t most_entries = 12;
-  auto [accepted, missing, unneeded, extrapolated] = study::acceptances_of(study);
-  facts["unneeded"] = unneeded;
-  facts["missing_count"] = missing.size();
-  facts["missing_more"] = missing.size() > most_entries;
-  missing.resize(std::min(missing.size(), most_entries));
-  if (!missing.empty()) facts["missing"] = "\n" + scene::acceptances_to_write(missing);
-  return noted("mesh", facts);
+  return noted("verdicts", facts);
 }
 
 std::string station_note(const study::StudyFile& study) {
@@ -192,19 +173,16 @@ std::string gap_text(study::GapOrBound gap) {
 }
 
 double value_of(const study::CriticalGap& gap) {
-  return gap.kind == study::CriticalGapKind::value ? gap.value : study::not_a_number;
+  return gap.kind == study::CriticalGapKind::all_safe ? study::not_a_number : gap.value;
 }
 
 std::string reads_as(const study::CriticalGap& gap) {
   using enum study::CriticalGapKind;
-  if (gap.kind == value) return in_words(gap.value, keys::significant(3, centimetre));
-  if (gap.kind == all_safe) return "> " + centimetres(gap.lower);
-  if (gap.kind == all_ignite) return gap.upper > 0 ? "< " + centimetres(gap.upper) : "ignites without a gap";
-  if (gap.kind == several_crossings) return "several, the first at " + centimetres(gap.lower);
-  if (std::isnan(gap.indicative)) return "indeterminate";
-  return fmt::format("indeterminate (indicative: {})", gap.indicative == study::no_ignition
-                                                           ? "none up to the end of the search"
-                                                           : gap_text(gap.indicative));
+  const std::string number = in_words(gap.value, significant(3, centimetre));
+  if (gap.kind == value) return number;
+  if (gap.kind == all_safe) return "> " + number;
+  if (gap.kind == all_ignite) return "ignites without a gap";
+  return gap.kind == several_crossings ? "several, the first at " + number : "unknown";
 }
 
 std::string friction_remark(const study::StudyFile& study) {
@@ -218,23 +196,22 @@ std::string friction_remark(const study::StudyFile& study) {
   return fmt::format("{}\n", fmt::join(noted("friction", facts), "\n"));
 }
 
-std::optional<Measured> measured_gap(const study::CriticalGap& gap) {
-  const Form form = quantity::critical_gap.form;
-  return measured_gap(shown_value(value_of(gap), form), shown_value(gap.bounds.at_least, form),
-                      shown_value(gap.bounds.at_most, form));
+std::optional<Measured> measured_gap(const study::CaseRow& of_case) {
+  if (of_case.critical.kind != study::CriticalGapKind::value) return std::nullopt;
+  return measured_gap(shown_gap(of_case.critical.value), shown_gap(of_case.bounds.at_least),
+                      shown_gap(of_case.bounds.at_most));
 }
 
-std::string measured_text(const study::CriticalGap& gap) {
-  const auto known = measured_gap(gap);
-  return known ? known->text(quantity::critical_gap.form.unit) : reads_as(gap);
+std::string measured_text(const study::CaseRow& of_case) {
+  const auto known = measured_gap(of_case);
+  return known ? known->text(quantity::critical_gap.form.unit) : reads_as(of_case.critical);
 }
 
-Table gap_share_table(const std::vector<NamedGap>& cases) {
-  std::vector<ShareRow> rows;
-  for (const NamedGap& each : cases)
-    for (const study::GapShare& share : each.gap->shares) rows.push_back({&each, &share});
-  return table_of("What makes the critical gap uncertain", share_quantities, rows,
-                  noted("gap_shares", {{"coverage", study::coverage_factor}}));
+Table cause_table(const std::vector<NamedCase>& cases) {
+  std::vector<CauseRow> rows;
+  for (const NamedCase& each : cases)
+    for (const study::CauseShare& share : each.row->causes) rows.push_back({&each, &share});
+  return table_of("What makes the critical gap uncertain", cause_quantities, rows, noted("causes"));
 }
 
 study::Use use_of(const std::shared_ptr<const scene::Constants>& constants, double gap, double published) {

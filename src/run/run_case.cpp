@@ -68,12 +68,7 @@ MechanicsResult run_mechanics(const scene::Scene& scene, const RunOptions& optio
 
 GapResult evaluate_gap(const scene::Scene& scene, const trace::BottomTrace& trace, double gap) {
   const surface::SkinModel model = surface::skin_model(scene);
-  GapResult result = gap_result(model, surface::integrate_skin(model, trace, gap), trace);
-  const trace::BottomTrace coarse = trace::thinned(trace);
-  const auto coarse_maximum =
-      surface::maximum_at_stations(surface::integrate_skin(model, coarse, gap), coarse);
-  result.sampling_error = std::abs(result.at_stations.temperature - coarse_maximum.temperature);
-  return result;
+  return gap_result(model, surface::integrate_skin(model, trace, gap), trace);
 }
 
 CaseResult run_case(const scene::Scene& scene, const RunOptions& options) {

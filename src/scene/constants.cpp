@@ -107,6 +107,25 @@ void read_values(const toml::table& root, const std::string& file, Constants& co
   }
 }
 
+void read_range(const toml::table& root, const std::string& file, Constants& constants) {
+  const toml::table* range = root["range"].as_table();
+  if (range == nullptr) return;
+  for (const Leaf& leaf : leaves_as_written(*range, {})) {
+    const Place place = place_of(*leaf.node, file);
+    const RangeKey* key = find_named(range_keys(), leaf.name);
+    if (key == nullptr) throw unknown_key(place, "range." + leaf.name, names_of(range_keys()));
+    const std::string interval = leaf.node->value_or(std::string{});
+    const bool is_valid = key->dimension == Dimension::share
+                              ? parse_quantity(interval, key->dimension).has_value()
+                              : parse_range(interval, key->dimension).has_value();
+    if (!is_valid)
+      throw error_at(place, "range." + leaf.name, in_quotes(interval),
+                     key->dimension == Dimension::share ? "a share, such as \"5 %\""
+                                                        : "an interval with its unit, lower end first");
+    constants.range[leaf.name] = interval;
+  }
+}
+
 void read_fitted_keys(const toml::table& root, const std::string& file, Constants& constants) {
   const std::string names = text_at(root, "fitted", file);
   for (const std::string_view name : parts_of_list(names))
@@ -130,9 +149,7 @@ Constants read_constants(const std::string& text, const std::string& file) {
   const std::string allowed = "tables, each written [[row]]";
   for (auto& [row, places] : read_tables(root, "row", row_keys(), file, allowed).or_throw())
     constants.rows.push_back(std::move(row));
-  if (const toml::table* range = root["range"].as_table())
-    for (const Leaf& leaf : leaves_as_written(*range, {}))
-      constants.range[leaf.name] = leaf.node->value_or(std::string{});
+  read_range(root, file, constants);
   constants.scene = parse_scene(text_at(root, "scene", file), file).or_throw().scene;
   return constants;
 }

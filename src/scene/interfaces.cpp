@@ -55,16 +55,11 @@ const std::vector<Key<Interface>>& interface_keys() {
                "How a body and the charge hold each other: bonded, or sliding with friction, "
                "free to part. Bodies without a table are held as the constants say.",
                {{"bonded", Condition::bonded}, {"sliding", Condition::sliding}}, &Interface::condition) |
-          required() |
-          always_plausible(
-              "launches are published with bonded charges, and shells are loaded with and without a bond",
-              of_model),
+          required(),
       optional_number_key<Interface>(
           "friction", Dimension::number, between(0, largest_friction),
           "Coulomb's coefficient between the faces; to be given where they can slide, 0 for smooth ones.",
-          &Interface::friction) |
-          plausibly(between(0, 1), "explosives on metals and lacquers are measured between 0.05 and 0.6",
-                    of_model),
+          &Interface::friction),
   };
   return keys;
 }

@@ -99,16 +99,6 @@ std::string allowed_text(const KeyDescription& key) {
   return {};
 }
 
-std::string plausible_text(const KeyDescription& key) {
-  const Plausible& plausible = key.plausible;
-  std::string range = plausible.words.empty()     ? limits_text(plausible.limits, key.dimension)
-                      : key.kind == KeyKind::flag ? plausible.words.front()
-                                                  : quoted_list(plausible.words);
-  if (range.empty()) range = "any";
-  if (plausible.or_zero) range = fmt::format("0, or {}", range);
-  return plausible.because.empty() ? range : range + ", because " + plausible.because;
-}
-
 std::string format_value(const KeyDescription& key, const Value& value) {
   if (const auto* number = std::get_if<double>(&value)) {
     // Cells of all sizes are in one unit, to compare them.
@@ -125,15 +115,28 @@ std::string format_value(const KeyDescription& key, const Value& value) {
 }
 
 std::string exact_toml(const KeyDescription& key, const Value& value) {
-  const std::string_view unit = si_unit_of(key.dimension);
+  const std::string_view unit = key.dimension == Dimension::share ? "%" : si_unit_of(key.dimension);
+  const auto written = [&](double number) { return as_written(number, key.dimension, unit); };
   if (const auto* number = std::get_if<double>(&value))
-    return unit.empty() ? fmt::format("{}", *number) : fmt::format("\"{} {}\"", *number, unit);
+    return unit.empty() ? fmt::format("{}", *number) : fmt::format("\"{} {}\"", written(*number), unit);
   if (const auto* flag = std::get_if<bool>(&value)) return *flag ? "true" : "false";
   if (const auto* string = std::get_if<std::string>(&value)) return string_as_toml(*string);
-  const auto& numbers = std::get<std::vector<double>>(value);
+  std::vector<double> numbers = std::get<std::vector<double>>(value);
   if (numbers.empty()) return "[]";
+  std::ranges::transform(numbers, numbers.begin(), written);
   return fmt::format("\"{}{}{}\"", fmt::join(numbers, key.kind == KeyKind::range ? " to " : ", "),
                      unit.empty() ? "" : " ", unit);
+}
+
+bool same_value(const Value& a, const Value& b, double tolerance) {
+  if (a.index() != b.index()) return false;
+  const auto is_same = [tolerance](double one, double other) {
+    return one == other || std::abs(one - other) <= tolerance * std::max(std::abs(one), std::abs(other));
+  };
+  if (const auto* number = std::get_if<double>(&a)) return is_same(*number, std::get<double>(b));
+  const auto* numbers = std::get_if<std::vector<double>>(&a);
+  return numbers == nullptr ? a == b
+                            : std::ranges::equal(*numbers, std::get<std::vector<double>>(b), is_same);
 }
 
 }  // namespace launchsafe::scene

@@ -209,10 +209,8 @@ const std::vector<Key<NamedMaterial>>& material_keys() {
     law.kind = KeyKind::word;
     law.words = names_of(usual_materials());
     return std::vector<Key<NamedMaterial>>{
-        law | always_plausible("the numbers are judged"),
-        text_key("title", Standing::input, "What the material is, for reports.", "PBX 9501",
-                 &NamedMaterial::title) |
-            always_plausible("it is for people")};
+        law, text_key("title", Standing::input, "What the material is, for reports.", "PBX 9501",
+                      &NamedMaterial::title)};
   }();
   return keys;
 }

@@ -211,7 +211,7 @@ struct Felt {
   template <class Owner>
   void keep_alone(const std::vector<Key<Owner>>& keys, Owner& owner) const {
     for (const Key<Owner>& key : keys)
-      if (!(key.is_used(owner) && contains(key.role().acts_on)) && key.standing != Standing::input &&
+      if (!(key.is_used(owner) && contains(key.acts_on)) && key.standing != Standing::input &&
           key.get(owner) != key.default_value())
         key.set(owner, key.default_value());
   }
@@ -351,7 +351,6 @@ Scene mechanical_part(const Scene& scene) {
   });
   std::erase(part.output.snapshot_events, Event::ignition);
   clear_remarks(part);
-  part.accepted.clear();
   part.interfaces = sliding_interfaces(scene);
   // The mechanics knows the time of the exit, however it was stated.
   part.load.muzzle_exit = exit_time(scene.load);

@@ -97,7 +97,7 @@ const DimensionInfo& info_of(Dimension dimension) {
        "Pa m^0.5",
        {{"MPa m^0.5", 6}, {"Pa m^0.5", 0}},
        {"MPa m^0.5", "Pa m^0.5"}},
-      {"share", "\"5 %\"", "", {{"%", -2}}, {}},
+      {"share", "\"5 %\"", "", {{"%", -2}}, {"%"}},
       {"mass", "\"1 kg\"", "kg", {{"kg", 0}, {"g", -3}}, {}},
       {"volume", "\"1 cm3\"", "m3", {{"cm3", -6}, {"m3", 0}}, {}},
       {"heat", "\"1 kJ\"", "J", {{"kJ", 3}, {"J", 0}}, {}},
@@ -270,8 +270,8 @@ std::string format_quantity(double value_si, Dimension dimension) {
   const DimensionInfo& info = info_of(dimension);
   for (const std::string_view unit : info.display) {
     const double value = in_unit(value_si, dimension, unit);
-    if (value_si == 0.0 || (std::abs(value) >= 0.0999999 && std::abs(value) < 999.9999))
-      return fmt::format("{:.6g} {}", value, unit);
+    const bool reads_well = value_si == 0.0 || (std::abs(value) >= 0.0999999 && std::abs(value) < 999.9999);
+    if (reads_well || dimension == Dimension::share) return fmt::format("{:.6g} {}", value, unit);
   }
   return fmt::format("{:.6g}{}{}", value_si, info.si_unit.empty() ? "" : " ", info.si_unit);
 }

@@ -9,8 +9,7 @@
 namespace launchsafe::scene {
 namespace {
 
-const std::vector<std::string> read_apart{"body",      "observation_point", "accept",
-                                          "interface", "material",          "constants"};
+const std::vector<std::string> read_apart{"body", "observation_point", "interface", "material", "constants"};
 
 /// Reads [[name]] tables into `owners`; the places become "name.<name of the owner>.<key>".
 template <class Owner>
@@ -42,7 +41,6 @@ void rebuild(SceneFile& file, bool has_curve, bool is_valid = false) {
   Scene fresh;
   fresh.bodies = std::move(file.scene.bodies);
   fresh.output.observation_points = std::move(file.scene.output.observation_points);
-  fresh.accepted = std::move(file.scene.accepted);
   fresh.interfaces = std::move(file.scene.interfaces);
   use_materials(file, fresh);
   for (const Key<Scene>& key : scene_keys())
@@ -234,8 +232,6 @@ Expected<SceneFile> parse_scene(std::string_view text, const std::filesystem::pa
     read_interfaces(table, file.file, scene, file.places);
     rebuild(file, false);
     check_expected_velocity(file);
-    if (table.contains("accept"))
-      file.scene.accepted = read_acceptances(table, acceptable_keys(file.scene), file.file).or_throw();
     return file;
   });
 }
@@ -291,13 +287,10 @@ std::vector<ListedKey> list_keys(const SceneFile& file) {
 }
 
 std::string to_toml(const Scene& scene) {
-  std::string text =
-      fmt::format("constants = '{}'\n", no_constants) + lines_of("", scene_keys(), scene) +
-      own_materials(scene) + interfaces_as_toml(scene.interfaces) +
-      inline_tables("body", body_keys(), scene.bodies) +
-      inline_tables("observation_point", observation_point_keys(), scene.output.observation_points);
-  if (!scene.accepted.empty()) text += inline_tables("accept", acceptance_keys(), scene.accepted);
-  return text;
+  return fmt::format("constants = '{}'\n", no_constants) + lines_of("", scene_keys(), scene) +
+         own_materials(scene) + interfaces_as_toml(scene.interfaces) +
+         inline_tables("body", body_keys(), scene.bodies) +
+         inline_tables("observation_point", observation_point_keys(), scene.output.observation_points);
 }
 
 }  // namespace launchsafe::scene

@@ -14,7 +14,7 @@ Key<Scene> title_key() {
              fmt::format("{}.title", Law::name), Standing::assumed, "What the material is, for reports.",
              "PBX 9501", [](auto& scene) -> auto& { return scene.template material<Law>().title; }) |
          written_where([](const Scene& scene) { return !scene.material<Law>().title.empty(); }) |
-         always_plausible("it is for people", remark);
+         acting_on(ActsOn::nothing);
 }
 
 /// The keys of a law as those of the scene's first material of it.
@@ -46,16 +46,14 @@ Keys general_keys() {
   return {
       text_key("title", Standing::assumed, "What this scene is, for reports.", "155 mm shell, Composition B",
                &Scene::title) |
-          always_plausible("it is for people", remark),
+          acting_on(ActsOn::nothing),
       word_key("barrel", Standing::assumed,
                "Frictionless rigid barrel around the outer surface, or a free outer surface.",
-               {{"rigid", Barrel::rigid}, {"none", Barrel::none}}, &Scene::barrel) |
-          always_plausible("a free shell is the harder case"),
+               {{"rigid", Barrel::rigid}, {"none", Barrel::none}}, &Scene::barrel),
       flag_key("open_charge", Standing::assumed,
                "Whether the charge may have a front, or a step, that no body covers all over.",
                &Scene::open_charge) |
-          written_where([](const Scene& scene) { return scene.open_charge; }) |
-          always_plausible("the launch itself is computed as drawn"),
+          written_where([](const Scene& scene) { return scene.open_charge; }),
       number_key("initial_temperature", Dimension::temperature, between(200, 500), Standing::paper,
                  "Temperature of all bodies and of the gap's air before launch.",
                  &Scene::initial_temperature) |
@@ -63,33 +61,24 @@ Keys general_keys() {
             materials::AirParameters& air = s.surface.air;
             air.initial_temperature = s.initial_temperature;
             air.density = materials::air_density(air.initial_temperature, air.initial_pressure);
-          }) |
-          plausibly(between(219, 345), "shells are stored and fired from -54 to 71 degC", over_range),
+          }),
       word_key("coupling", Standing::assumed,
                "Whether the run of a gap that ignites goes on through combustion, with burning "
                "explosive turned to gas that acts on charge and shell, or ends with the launch.",
                {{"one-way", Coupling::one_way}, {"two-way", Coupling::two_way}}, &Scene::coupling) |
-          written_where(couples_back) | always_plausible("until ignition both are the same", of_combustion),
+          written_where(couples_back) | acting_on(ActsOn::combustion),
   };
 }
 
 std::vector<Key<Combustion>> combustion_keys() {
   return {
       number_key("duration", Dimension::time, above_to(0, 1), Standing::assumed,
-                 "Time after the first ignition at which the run ends.", &Combustion::duration) |
-          plausibly(between(1e-5, 5e-3), "a skin turns to gas at once, which expands for a millisecond"),
+                 "Time after the first ignition at which the run ends.", &Combustion::duration),
       number_key("stop_pressure", Dimension::pressure, above_to(0, 1e11), Standing::assumed,
-                 "Pressure at the charge's bottom at which the run ends before.",
-                 &Combustion::stop_pressure) |
-          plausibly(between(5e8, 1e10), "launches press with some hundred MPa, and detonations with 30 GPa"),
+                 "Pressure at the charge's bottom at which the run ends before.", &Combustion::stop_pressure),
   };
 }
 
-/// What these stand for shrinks with the cells: the particles, which are a share of one, the time step, a
-/// share of the time that sound takes through one, and the stiffness against hourglassing, which acts on what
-/// smooth fields lose as the square of the cell. Both formulations have one limit. Cells far away stay as
-/// large as they may where the smallest are refined; where they do not grow, the largest one says nothing. By
-/// the time step T max moves by less than 0.1 K (reports/accuracy).
 std::vector<Key<Numerics>> numerics_keys() {
   return {
       word_key("formulation", Standing::assumed,
@@ -97,86 +86,61 @@ std::vector<Key<Numerics>> numerics_keys() {
                "bodies, or uGIMP on an even background grid (the paper's method).",
                {{"total-lagrangian", Formulation::total_lagrangian},
                 {"updated-lagrangian", Formulation::updated_lagrangian}},
-               &Numerics::formulation) |
-          always_plausible("constants are calibrated for one of them", vanishing_setting),
+               &Numerics::formulation),
       number_key("cell_size", Dimension::length, between(1e-5, 1), Standing::assumed,
                  "Largest cell length at the charge's bottom and sides, and everywhere on an even grid; the "
                  "grid is fitted to the bodies with cells no longer than this.",
-                 &Numerics::cell_size) |
-          plausibly(between(1e-4, 1e-2), "shells are some cells thick, and cells hold many grains",
-                    vanishing_setting),
-      number_key("growth_x", Dimension::number, between(1, 2), Standing::assumed,
+                 &Numerics::cell_size),
+      number_key("growth_x", Dimension::number, between(1, 1.5), Standing::assumed,
                  "Ratio of neighbouring cells along x away from the charge's bottom; 1 is an even grid.",
-                 &Numerics::growth_x) |
-          plausibly(between(1, 1.5), "cells that grow faster were never compared with a reference",
-                    setting_exact_at(1.0)),
-      number_key("growth_r", Dimension::number, between(1, 2), Standing::assumed,
+                 &Numerics::growth_x),
+      number_key("growth_r", Dimension::number, between(1, 1.5), Standing::assumed,
                  "Ratio of neighbouring cells along r away from the charge's sides; 1 is an even grid.",
-                 &Numerics::growth_r) |
-          plausibly(between(1, 1.5), "cells that grow faster were never compared with a reference",
-                    setting_exact_at(1.0)),
+                 &Numerics::growth_r),
       number_key("largest_cell", Dimension::length, between(1e-5, 1), Standing::assumed,
                  "Length up to which cells grow; along r no further than station.width.",
-                 &Numerics::largest_cell) |
-          plausibly(between(1e-4, 2e-2), "shells are some cells thick", vanishing_setting),
-      number_key("hourglass_stiffness", Dimension::number, between(0, 10), Standing::assumed,
+                 &Numerics::largest_cell),
+      number_key("hourglass_stiffness", Dimension::number, between(0.03, 1), Standing::assumed,
                  "Stiffness against hourglassing with one particle a cell, as a share of the shear "
                  "stiffness, in a charge of a fifth of it.",
-                 &Numerics::hourglass_stiffness) |
-          plausibly(between(0.03, 1),
-                    "without it neighbours alternate, and more than the shear stiffness holds bending back",
-                    vanishing_setting),
-      number_key("particles_per_cell", Dimension::count, between(1, 16), Standing::assumed,
-                 "Particles per cell in each direction.", &Numerics::particles_per_cell) |
-          plausibly(between(1, 4), "more were never compared with a reference", vanishing_setting),
+                 &Numerics::hourglass_stiffness),
+      number_key("particles_per_cell", Dimension::count, between(1, 4), Standing::assumed,
+                 "Particles per cell in each direction.", &Numerics::particles_per_cell),
       number_key("time_step_factor", Dimension::number, above_to(0, 2), Standing::assumed,
                  "Time step over the time sound takes through a cell (CFL); steps are proved "
                  "stable up to 0.68, updated-Lagrangian ones up to 0.57.",
-                 &Numerics::time_step_factor) |
-          plausibly(between(0.01, 0.68),
-                    "steps are proved stable up to 0.68, updated-Lagrangian ones to 0.57", minor_setting),
+                 &Numerics::time_step_factor),
       number_key("inertial_scaling", Dimension::number, between(1, 1e4), Standing::assumed,
                  "Factor on the inertia of the motion relative to the accelerating frame; an accuracy knob.",
-                 &Numerics::inertial_scaling) |
-          plausibly(between(1, 100), "larger ones moved temperatures by tens of kelvin",
-                    setting_exact_at(1.0)),
-      number_key("selective_inertia", Dimension::number, between(1, 100), Standing::assumed,
+                 &Numerics::inertial_scaling),
+      number_key("selective_inertia", Dimension::number, between(1, 8), Standing::assumed,
                  "Multiple of the step that the smallest cells allow; cells that allow less "
                  "get the inertia for it (selective mass scaling). 1 is true inertia.",
                  &Numerics::selective_inertia) |
-          plausibly(between(1, 8), "larger ones were never compared with a reference",
-                    setting_exact_at(1.0)) |
           usually(
               "4, or 1 where that was not measured: two-way coupling, measured curves, rises below 0.5 ms, "
               "other scaled inertia, no charge, updated-Lagrangian"),
       number_key("damping_time", Dimension::time, between(0, 1), Standing::assumed,
-                 "Decay time of the relative velocity; \"0 ms\" for no damping.", &Numerics::damping_time) |
-          zero_or_plausibly(between(1e-3, 1), "a faster one takes out motion that the load makes",
-                            setting_exact_at(0.0)),
-      number_key("pic_fraction", Dimension::number, between(0, 1), Standing::assumed,
-                 "Share of PIC in the velocity update; 0 is pure FLIP.", &Numerics::pic_fraction) |
-          plausibly(between(0, 0.02), "a larger share takes out motion as damping does",
-                    setting_exact_at(0.0)),
+                 "Decay time of the relative velocity; \"0 ms\" for no damping.", &Numerics::damping_time),
+      number_key("pic_fraction", Dimension::number, between(0, 0.2), Standing::assumed,
+                 "Share of PIC in the velocity update; 0 is pure FLIP.", &Numerics::pic_fraction),
       number_key("energy_drift_limit", Dimension::number, above_to(0, 100), Standing::assumed,
                  "Energy drift, as a share of the energy scale, past which a run is indeterminate.",
-                 &Numerics::energy_drift_limit) |
-          plausibly(between(1e-4, 0.1), "a run that invents or loses a tenth of its energy is broken",
-                    Role{ActsOn::numerics, Part::free}),
+                 &Numerics::energy_drift_limit),
   };
 }
 
 std::vector<Key<Output>> output_keys() {
   return {
-      number_key("trace_interval", Dimension::time, above_to(0, 1), Standing::assumed,
+      number_key("trace_interval", Dimension::time, above_to(0, 2e-3), Standing::assumed,
                  "Interval between samples of the bottom trace.", &Output::trace_interval) |
-          plausibly(between(1e-8, 5e-4), "the load changes within a millisecond", minor_setting),
+          acting_on(ActsOn::numerics),
       list_key("snapshots", Dimension::time, between(0, 1), Standing::assumed,
                "Times at which the fields of all particles are stored.", &Output::snapshot_times) |
-          may_be_empty() | always_plausible("they change nothing of the launch", judged_elsewhere),
+          may_be_empty(),
       words_key("snapshot_events", Standing::assumed, "Events at which they are stored too; empty for none.",
                 event_words(), &Output::snapshot_events) |
-          written_where([](const Output& output) { return !output.snapshot_events.empty(); }) |
-          always_plausible("they change nothing of the launch", judged_elsewhere),
+          written_where([](const Output& output) { return !output.snapshot_events.empty(); }),
   };
 }
 
@@ -186,21 +150,17 @@ std::vector<Key<Physics>> physics_keys() {
   return {
       word_key("conduction", Standing::assumed,
                "Heat conduction between particles: as the plan decides, or forced.", switches,
-               &Physics::conduction) |
-          always_plausible("only \"off\" where the plan has it in gives a validity warning",
-                           judged_elsewhere),
+               &Physics::conduction),
       word_key("bulk_reaction", Standing::assumed,
                "Reaction heat in the bulk of the charge: as the plan decides, or forced.", switches,
-               &Physics::bulk_reaction) |
-          always_plausible("only \"off\" where the plan has it in gives a validity warning",
-                           judged_elsewhere),
+               &Physics::bulk_reaction),
   };
 }
 
 /// They do nothing, and are no part of what identifies a run, without two-way coupling.
 Keys written_combustion_keys() {
   Keys keys =
-      keys::keys_of_part("combustion.", &Scene::combustion, keys::in_role(of_combustion, combustion_keys()));
+      keys::keys_of_part("combustion.", &Scene::combustion, acting_on(ActsOn::combustion, combustion_keys()));
   for (Key<Scene>& key : keys) written_where(couples_back)(key);
   return keys;
 }
@@ -227,38 +187,34 @@ const std::vector<std::string>& event_words() {
 }
 
 const std::vector<Key<Scene>>& scene_keys() {
-  using keys::in_role, keys::keys_of_part;
+  using keys::keys_of_part;
   static const Keys keys = keys::joined(
-      {general_keys(),
-       keys_of_part("load.", &Scene::load, in_role({ActsOn::mechanics, Part::load_shape}, load_keys())),
-       keys_of_laws(), surface_keys(), keys_of_part("numerics.", &Scene::numerics, numerics_keys()),
+      {general_keys(), keys_of_part("load.", &Scene::load, load_keys()), keys_of_laws(), surface_keys(),
+       keys_of_part("numerics.", &Scene::numerics, acting_on(ActsOn::numerics, numerics_keys())),
        keys_of_part("output.", &Scene::output, output_keys()),
        keys_of_part("physics.", &Scene::physics, physics_keys()), written_combustion_keys()});
   return keys;
 }
 
-keys::Role role_of(std::string_view key) {
-  const Key<Scene>* found = find_key(scene_keys(), key);
-  return found == nullptr ? keys::Role{} : found->role();
+ActsOn acts_on(std::string_view scene_key) {
+  const Key<Scene>* found = find_key(scene_keys(), scene_key);
+  return found == nullptr ? ActsOn::mechanics : found->acts_on;
 }
 
 const std::vector<Key<Body>>& body_keys() {
   static const std::vector<Key<Body>> keys = {
       text_key("name", Standing::input, "Name of the body, unique.", "wall", &Body::name) | required() |
-          always_plausible("it is for people", remark),
+          acting_on(ActsOn::nothing),
       text_key("material", Standing::input,
                "What the body is made of: a law, whose table gives the numbers, or a material by name.",
                "comp-b", &Body::material) |
-          required() | always_plausible("the numbers of each are judged", judged_elsewhere),
+          required(),
       range_key("x", Dimension::length, between(0, 10), Standing::input,
                 "Axial extent, from the nose to the base.", &Body::x_begin, &Body::x_end) |
-          required() |
-          plausibly(between(5e-4, 2), "parts of shells are half a millimetre to two metres long"),
+          required(),
       range_key("r", Dimension::length, between(0, 10), Standing::input,
                 "Radial extent, from the axis outward.", &Body::r_begin, &Body::r_end) |
-          required() |
-          plausibly(between(5e-4, 0.25),
-                    "naval guns had calibres up to 46 cm, and walls are millimetres thick"),
+          required(),
   };
   return keys;
 }
@@ -266,13 +222,13 @@ const std::vector<Key<Body>>& body_keys() {
 const std::vector<Key<ObservationPoint>>& observation_point_keys() {
   static const std::vector<Key<ObservationPoint>> keys = {
       text_key("name", Standing::input, "Name of the point, unique.", "G2", &ObservationPoint::name) |
-          required() | always_plausible("it is for people", judged_elsewhere),
+          required(),
       number_key("x", Dimension::length, between(0, 10), Standing::input, "Axial position at rest.",
                  &ObservationPoint::x) |
-          required() | always_plausible("it has to lie at the charge's bottom", judged_elsewhere),
+          required(),
       number_key("r", Dimension::length, between(0, 10), Standing::input, "Radial position at rest.",
                  &ObservationPoint::r) |
-          required() | always_plausible("it has to lie at the charge's bottom", judged_elsewhere),
+          required(),
   };
   return keys;
 }
@@ -284,13 +240,11 @@ std::vector<DocumentedKey> describe_keys() {
                         "Constants that were fitted, of every key that the scene does not state: a shipped "
                         "name, the path of a constants file, or none.");
   constants.example = default_constants;
-  always_plausible("the launch that they were fitted on is judged")(constants);
   documented.push_back({std::move(constants), default_constants});
   document(documented, scene_keys(), "");
   document(documented, body_keys(), "body.");
   document(documented, interface_keys(), "interface.NAME.");
   document(documented, observation_point_keys(), "observation_point.");
-  document(documented, acceptance_keys(), "accept.");
   document(documented, material_keys(), "material.NAME.");
   return documented;
 }

@@ -226,6 +226,18 @@ Expected<std::vector<Value>> read_values(const toml::node& node, const KeyDescri
   });
 }
 
+void check_reason(const std::string& text, const Place& place, const std::string& key) {
+  constexpr std::ptrdiff_t fewest_letters = 8, fewest_words = 2;
+  // Of other scripts than Latin, the first bytes of UTF-8 characters.
+  const auto is_letter = [](unsigned char c) { return std::isalpha(c) != 0 || c >= 0xc0; };
+  const auto is_word = [&](std::string_view part) { return std::ranges::any_of(part, is_letter); };
+  if (std::ranges::count_if(text, is_letter) >= fewest_letters &&
+      std::ranges::count_if(parts_of_list(text, ' '), is_word) >= fewest_words)
+    return;
+  throw error_at(place, key, '"' + text + '"',
+                 fmt::format("a reason in at least two words and {} letters", fewest_letters));
+}
+
 InputError unknown_key(const Place& place, const std::string& name, const std::vector<std::string>& known) {
   const std::string section = section_of(name);
   std::vector<std::string> siblings, tables;

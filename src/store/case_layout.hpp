@@ -160,7 +160,6 @@ template <class Archive, class Value>
 void lay_out_gap(Archive& archive, Value& gap, const trace::BottomTrace& trace) {
   auto& skin = gap.skin;
   archive.value("gap", gap.gap, {"m", "thickness of the bottom gap"});
-  archive.value("sampling_error", gap.sampling_error, {"K", "change of T_max on a trace thinned by two"});
   integer(archive, "coupled", gap.with_mechanics, {"1", "1 when integrated inside the mechanics"});
   lay_out_maximum(archive, "maximum_at_stations", "T_max over the stations, which tile the bottom",
                   gap.at_stations, trace);

@@ -1,6 +1,6 @@
 // Which runs the cases of a study need, which they share, and how they are divided over shards.
-#include "launchsafe/scene/plan.hpp"
-#include "launchsafe/study/case_answer.hpp"
+#include "launchsafe/study/causes.hpp"
+#include "launchsafe/study/study_cases.hpp"
 
 #include <tbb/parallel_for.h>
 
@@ -21,37 +21,17 @@ std::vector<double> launched_gaps(const StudyFile& study, const StudyCase& input
 /// Of so many cases at the most the runs are planned before they are begun.
 constexpr std::size_t most_planned_before = 512;
 
-/// Whether the mechanics of a case has its values of these axes: not where a launch decides whether the
-/// mechanics knows a key, as its role says, or as its value is not there.
-bool keeps_values(const StudyFile& study, std::size_t index, const std::vector<std::size_t>& axes) {
-  const scene::Scene part = scene::mechanical_part(study.cases[index].scene.scene);
-  return std::ranges::all_of(axes, [&](std::size_t i) {
-    const Axis& axis = study.study.axes[i];
-    const keys::ActsOn acts_on = axis.key.role().acts_on;
-    const auto* key = scene::find_key(scene::scene_keys(), axis.key.name);
-    return (acts_on == keys::ActsOn::mechanics || acts_on == keys::ActsOn::numerics) && key != nullptr &&
-           same_value(key->get(part), scene::Value(study.cases.coordinates(index)[i]));
-  });
-}
-
-/// Whether cases that differ in these axes surely differ in their runs. The first and the last case have
-/// other values of each, of which one is not the default.
-bool tell_runs_apart(const StudyFile& study, const std::vector<std::size_t>& axes) {
-  if (study.cases.empty() || !launched_gaps(study, study.cases.front()).empty()) return false;
-  const std::size_t last = study.cases.size() - 1;
-  return !study.cases.has_own_scene(0) && !study.cases.has_own_scene(last) && keeps_values(study, 0, axes) &&
-         keeps_values(study, last, axes);
-}
-
-/// A launch of a case under other constants.
-CaseRun model_run(const StudyCase& input, const std::shared_ptr<const scene::Constants>& model) {
-  return mechanics_run(scene_of_model(input, model),
-                       fmt::format("{}, constants {}", input.label, name_of_model(*model)));
+CaseRun run_of(const StudyCase& input, const SideLaunch& launch) {
+  constexpr std::array words{"", "through ignition", "raised load", "companion", "cells of constants",
+                             "constants"};
+  return mechanics_run(launch.scene(input),
+                       fmt::format("{}, {}{}{}", input.label, words.at(static_cast<std::size_t>(launch.part)),
+                                   launch.name.empty() ? "" : " ", launch.name));
 }
 
 std::string key_by_runs(const StudyFile& study, const StudyCase& input) {
   std::string key = mechanics_run(input.scene.scene, {}).hash;
-  for (const auto& model : study.study.models) key += model_run(input, model).hash;
+  for (const SideLaunch& each : side_launches(study.study, input)) key += run_of(input, each).hash;
   // A case that burns shares its launch alone with no other.
   for (const double gap : launched_gaps(study, input)) key += skin_run(input.scene.scene, gap, {}).hash;
   return key;
@@ -60,17 +40,8 @@ std::string key_by_runs(const StudyFile& study, const StudyCase& input) {
 /// The cases that share runs, in the order of their first ones.
 std::vector<CaseRuns> cases_by_runs(const StudyFile& study) {
   std::vector<std::string> keys(study.cases.size());
-  std::vector<std::size_t> axes;  // that reach the mechanics
-  for (std::size_t i = 0; i < study.study.axes.size(); ++i)
-    if (keys::reaches_mechanics(study.study.axes[i].key.role().acts_on)) axes.push_back(i);
-  const bool by_values = tell_runs_apart(study, axes);
-  tbb::parallel_for(std::size_t{0}, keys.size(), [&](std::size_t i) {
-    if (!by_values || study.cases.has_own_scene(i)) {
-      keys[i] = key_by_runs(study, study.cases[i]);
-      return;
-    }
-    for (const std::size_t axis : axes) keys[i] += fmt::format("{} ", study.cases.coordinates(i)[axis]);
-  });
+  tbb::parallel_for(std::size_t{0}, keys.size(),
+                    [&](std::size_t i) { keys[i] = key_by_runs(study, study.cases[i]); });
   std::vector<CaseRuns> cases;
   std::unordered_map<std::string, std::size_t> known;
   for (std::size_t i = 0; i < keys.size(); ++i) {
@@ -81,39 +52,21 @@ std::vector<CaseRuns> cases_by_runs(const StudyFile& study) {
   return cases;
 }
 
-/// The same launch with the pressure at the hot end of the assumed spread.
-scene::Scene with_raised_load(const scene::Scene& scene) {
-  scene::Scene raised = scene;
-  const double factor = 1.0 + assumed_load_spread;
-  scene::Load& load = raised.load;
-  load.peak *= factor;
-  if (!load.rescale_to_peak)
-    for (double& pressure : load.curve_pressure) pressure *= factor;
-  return raised;
-}
-
 /// The runs of the first of the cases that share them.
 void plan_runs(const StudyFile& study, CaseRuns& cases) {
   const std::size_t first = cases.members.front();
-  const auto add = [&](auto make, std::string model = {}) {
-    cases.runs.push_back(
-        {[of = &study, first, make] { return make(of->cases[first]); }, 1.0, std::move(model)});
+  const auto add = [&](Part part, std::string name, auto make) {
+    cases.runs.push_back({[of = &study, first, make] { return make(of->cases[first]); }, 1.0, part, name});
   };
-  // Where every case has runs of the same kinds none is made to know them.
-  const StudyCase input = study.study.kind.goes_through_ignition ? study.cases[first] : StudyCase{};
-  add([](const StudyCase& own) { return mechanics_run(own.scene.scene, own.label); });
+  const StudyCase input = study.cases[first];
+  add(Part::own, {}, [](const StudyCase& own) { return mechanics_run(own.scene.scene, own.label); });
   for (const double gap : launched_gaps(study, input))
-    add([gap](const StudyCase& own) {
+    add(Part::through_ignition, {}, [gap](const StudyCase& own) {
       return skin_run(own.scene.scene, gap,
                       fmt::format("{}, through ignition at {:.6g} cm", own.label, 100.0 * gap));
     });
-  if (propagates_spread(study.study))
-    add([](const StudyCase& own) {
-      return mechanics_run(with_raised_load(own.scene.scene),
-                           fmt::format("{}, load +{:.3g} %", own.label, 100.0 * assumed_load_spread));
-    });
-  for (const auto& model : study.study.models)
-    add([model](const StudyCase& own) { return model_run(own, model); }, name_of_model(*model));
+  for (const SideLaunch& each : side_launches(study.study, input))
+    add(each.part, each.name, [each](const StudyCase& own) { return run_of(own, each); });
 }
 
 void predict_costs(std::vector<CaseRuns>& cases) {
@@ -157,11 +110,6 @@ std::vector<int> shards_of(const std::vector<double>& costs, int count) {
     least.emplace(load + costs[at], shard);
   }
   return shards;
-}
-
-bool propagates_spread(const Study& study) {
-  return study.kind.gives_verdicts && study.kind.bounds_critical_gaps &&
-         !std::isfinite(study.input_uncertainty);
 }
 
 std::vector<CaseRuns> case_runs(const StudyFile& study, int shards) {

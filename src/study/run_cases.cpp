@@ -172,7 +172,8 @@ struct CaseLoop {
     OpenCase& open = open_cases[i];
     if (j == 0) open.spoilt = !run.failure.empty();
     open.runs[j] = std::move(run);
-    open.runs[j].model = cases[i].runs[j].model;
+    open.runs[j].part = cases[i].runs[j].part;
+    open.runs[j].name = cases[i].runs[j].name;
     if (--open.left > 0) return;
     const FinishedRun* lacking = run_without_result(open.runs);
     const FinishedRun& decisive = lacking != nullptr ? *lacking : open.runs.front();
@@ -224,7 +225,6 @@ CaseRun mechanics_run(const scene::Scene& scene, std::string label) {
 CaseRun skin_run(const scene::Scene& scene, double gap, std::string label) {
   scene::Scene own = scene;
   scene::clear_remarks(own);
-  own.accepted.clear();
   own.surface.gaps = {gap};
   own.coupling = scene::Coupling::two_way;
   return planned(std::move(own), gap, std::move(label));
@@ -243,11 +243,19 @@ bool FinishedRun::has_result() const {
 
 const FinishedRun* run_without_result(const std::vector<FinishedRun>& runs) {
   for (const FinishedRun& run : runs) {
+    const bool is_beside = run.part != Part::own && run.part != Part::through_ignition;
     const bool failed = run.outcome == RunOutcome::failed || run.outcome == RunOutcome::refused;
-    if (!run.has_result() && (run.model.empty() || !failed)) return &run;
-    if (run.model.empty() && !run.failure.empty()) return nullptr;
+    if (!run.has_result() && !(is_beside && failed)) return &run;
+    // A case whose launch broke off is told by that launch alone.
+    if (run.part == Part::own && !run.failure.empty()) return nullptr;
   }
   return nullptr;
+}
+
+const FinishedRun* find_part(const std::vector<FinishedRun>& runs, Part part, const std::string& name) {
+  const auto found = std::ranges::find_if(
+      runs, [&](const FinishedRun& run) { return run.part == part && run.name == name; });
+  return found == runs.end() ? nullptr : &*found;
 }
 
 void run_cases(const std::vector<CaseRuns>& cases, const StudyOptions& options, ProgressTracker& tracker,

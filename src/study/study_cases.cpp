@@ -21,9 +21,10 @@ const Change& change_at_fault(const std::vector<Change>& changes, const scene::I
 
 /// Whether other values of a key make another launch, and not only another computation of the same one.
 bool is_condition(const scene::KeyDescription& key) {
-  const keys::Part part = key.role().part;
-  return key.standing != scene::Standing::calibrated && part != keys::Part::setting &&
-         part != keys::Part::minor_setting && part != keys::Part::free;
+  const auto begins = [&](const char* prefix) { return key.name.starts_with(prefix); };
+  return key.standing != scene::Standing::calibrated && key.acts_on != keys::ActsOn::nothing &&
+         key.acts_on != keys::ActsOn::numerics && !begins("numerics.") && !begins("output.") &&
+         !begins("physics.");
 }
 
 /// What varied cases are made from.
@@ -65,7 +66,6 @@ bool is_own(const Start& start, const StudyCase& made) {
 
 StudyCase varied_case(const Start& start, std::vector<double> coordinates, SceneFile scene) {
   StudyCase made = case_of({}, std::move(scene));
-  made.pressure_ratio = made.peak_pressure / start.peak;
   made.coordinates = std::move(coordinates);
   made.own_conditions = is_own(start, made);
   return made;
@@ -114,7 +114,6 @@ const StudyCase Cases::operator[](std::size_t index) const {
   const Row& row = rows_[index];
   StudyCase made = row.own ? *row.own : make_(row.coordinates);
   made.label = row.label;
-  if (complete_) complete_(made);
   return made;
 }
 
@@ -128,6 +127,31 @@ void Cases::add(StudyCase made) {
 
 void Cases::replace(std::size_t index, StudyCase made) {
   rows_[index] = {made.label, made.coordinates, std::make_shared<const StudyCase>(std::move(made))};
+}
+
+std::vector<std::string> differences(const scene::Scene& scene, const scene::Scene& other) {
+  std::vector<std::string> names;
+  for (const auto& key : scene::scene_keys()) {
+    const bool is_used = key.is_used(scene);
+    if (is_used != key.is_used(other) || (is_used && !same_value(key.get(scene), key.get(other))))
+      names.push_back(key.name);
+  }
+  const auto compare = [&](const char* name, const auto& ours, const auto& theirs, auto same) {
+    if (!std::ranges::equal(ours, theirs, same)) names.emplace_back(name);
+  };
+  compare("body", scene.bodies, other.bodies, [](const scene::Body& a, const scene::Body& b) {
+    return a.material == b.material && same_number(a.x_begin, b.x_begin) && same_number(a.x_end, b.x_end) &&
+           same_number(a.r_begin, b.r_begin) && same_number(a.r_end, b.r_end);
+  });
+  compare("interface", scene.interfaces, other.interfaces,
+          [](const scene::Interface& a, const scene::Interface& b) {
+            return a.body == b.body && a.condition == b.condition && a.friction == b.friction;
+          });
+  compare("observation_point", scene.output.observation_points, other.output.observation_points,
+          [](const scene::ObservationPoint& a, const scene::ObservationPoint& b) {
+            return same_number(a.x, b.x) && same_number(a.r, b.r);
+          });
+  return names;
 }
 
 bool same_number(double a, double b) { return std::abs(a - b) <= 1e-9 * std::max(std::abs(a), std::abs(b)); }

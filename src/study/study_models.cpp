@@ -10,9 +10,43 @@
 namespace launchsafe::study {
 namespace {
 
-constexpr const char* models_key = "models";
+constexpr const char *models_key = "models", *constants_key = "constants";
+
+/// The keys of a scene that its constants have, but for those of a steel.
+std::set<std::string> keys_of_constants(const scene::SceneFile& file) {
+  std::set<std::string> names;
+  for (const auto& [key, value] : file.constants->values)
+    if (!key.starts_with("steel.")) names.insert(scene::key_in_scene(file.scene, key));
+  return names;
+}
 
 }  // namespace
+
+void use_constants(StudyFile& study, const std::filesystem::path& folder) {
+  const std::string& name = study.study.constants;
+  if (name.empty()) return;
+  auto constants = scene::find_constants(name, folder, place_of_key(study, constants_key), constants_key);
+  study.scene = scene::with_constants(study.scene, std::move(constants)).or_throw();
+}
+
+void check_constants(const StudyFile& study) {
+  const scene::SceneFile& file = study.scene;
+  if (!study.study.kind.gives_verdicts || file.constants == nullptr) return;
+  const bool has_curve = !file.scene.load.curve_time.empty();
+  const std::string allowed =
+      fmt::format("no such key where verdicts are given: it stands in the constants \"{}\" alone",
+                  file.constants->name);
+  for (const std::string& key : keys_of_constants(file)) {
+    if (has_curve && key.starts_with("load.")) continue;
+    if (const auto given = file.given.find(key); given != file.given.end() && !given->second.of_material)
+      throw scene::error_at(given->second.place, key, "a constant that was fitted or chosen", allowed);
+    if (const auto place = file.places.find(key); place != file.places.end())
+      throw scene::error_at(place->second, key, "a constant that was fitted or chosen", allowed);
+    for (const Axis& axis : study.study.axes)
+      if (axis.key.name == key)
+        refuse_at(study, axis.study_key, key + ", a constant that was fitted or chosen", allowed);
+  }
+}
 
 std::string name_of_model(const scene::Constants& model) {
   const std::filesystem::path path(model.name);

@@ -75,6 +75,13 @@ AfterLaunch follow_after_launch(const SkinModel& model, double skin, double char
   return {time, at[0], std::nullopt};
 }
 
+std::optional<double> ignition_after_launch(const SkinModel& model, const SkinHistory& history,
+                                            const trace::BottomTrace& trace, double charge) {
+  if (history.ignition || history.time.empty()) return std::nullopt;
+  const double hottest = maximum_at_time(history, trace, history.time.back()).temperature;
+  return follow_after_launch(model, hottest, charge).ignition_time;
+}
+
 double runaway_temperature(const SkinModel& model, double charge, SkinResolution resolution) {
   double hot = detail::trigger_of(model).temperature, cool = std::min(charge, hot);
   do {

@@ -18,7 +18,7 @@ class HangingPicture : public StoredStudy {
     write(
         "study.toml",
         "kind = \"critical-gap\"\nscene = \"shell.toml\"\nearly_time = "
-        "\"0.03 ms\"\ninput_uncertainty = { value = \"2 K\", because = \"for a test\" }\nconfirm = false\n");
+        "\"0.03 ms\"\nuncertainty.peak_pressure = \"0 %\"\nnumerics = { value = \"2 K\", because = \"two meshes of it\" }\nconfirm = false\n");
   }
 };
 

@@ -52,7 +52,7 @@ TEST_F(ReportCommand, OfAStudyWhoseCaseFailedSaysSo) {
   for (const auto& block : report["sections"][0]["blocks"]) {
     if (block["id"] != "verdicts") continue;
     for (const auto& row : block["rows"])
-      for (const char* key : {"temperature_max_K", "margin_K", "uncertainty_K", "margin_over_uncertainty"})
+      for (const char* key : {"temperature_max_K", "margin_K", "uncertainty_K"})
         EXPECT_TRUE(row[key].is_null()) << key << " " << row[key];
   }
   EXPECT_FALSE(exists("safety/temperature.svg"));

@@ -169,7 +169,8 @@ END
 kind = "critical-gap"
 scene = "shell.toml"
 early_time = "0.03 ms"
-input_uncertainty = { value = "2 K", because = "for a test" }
+uncertainty.peak_pressure = "0 %"
+numerics = { value = "2 K", because = "two meshes of it" }
 gaps = "0, 0.01 cm"
 confirm = false
 

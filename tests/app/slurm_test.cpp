@@ -12,7 +12,8 @@ scene = "shell.toml"
 early_time = "0.03 ms"
 gaps = "0, 0.01 cm"
 confirm = false
-input_uncertainty = { value = "2 K", because = "for a test" }
+uncertainty.peak_pressure = "0 %"
+numerics = { value = "2 K", because = "two meshes of it" }
 
 [[vary]]
 key = "peak_pressure"

@@ -10,7 +10,8 @@ const std::string small_study = R"(kind = "critical-gap"
 scene = "shell.toml"
 gaps = "0, 0.01, 0.02 cm"
 early_time = "0.03 ms"
-input_uncertainty = { value = "2 K", because = "for a test" }
+uncertainty.peak_pressure = "0 %"
+numerics = { value = "2 K", because = "two meshes of it" }
 )";
 
 class StudyProgram : public Program {

@@ -1,10 +1,7 @@
-// Studies from any bytes. An input is the text of a study and, after lines "%%%%", that of its scene,
-// scene.toml, and that of an accuracy record, accuracy.json. Whatever is read must have cases fit to be
-// computed; whatever is not must say why. "@scene" in the record stands for that scene as the program
-// writes it, which no fuzzer guesses.
+// Studies from any bytes. An input is the text of a study and, after a line "%%%%", that of its scene,
+// scene.toml. Whatever is read must have cases fit to be computed; whatever is not must say why.
 #include "fuzz_input.hpp"
 #include "launchsafe/kinds/kind.hpp"
-#include "record_text.hpp"
 
 #include <fstream>
 #include <iterator>
@@ -44,11 +41,6 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   }();
   const auto parts = fuzz::parts_of(data, size);
   folder.write("scene.toml", parts.size() > 1 ? parts[1] : usual_scene);
-  if (parts.size() > 2) {
-    folder.write("accuracy.json", fuzz::with_scene(parts[2], parts[1]));
-  } else {
-    folder.remove("accuracy.json");
-  }
   kinds::StudyRequest request;
   request.most_cases = 400;  // more only take longer
   const auto file = kinds::parse_study(parts[0], folder.path() / "study.toml", request);

@@ -5,6 +5,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 namespace {
@@ -15,7 +16,7 @@ using namespace launchsafe::study;
 
 const std::string accuracy_text =
     "kind = \"accuracy\"\nscene = \"scene_155mm.toml\"\ngaps = \"0, 0.02, 0.039 cm\"\n"
-    "reference_cell_sizes = \"2.5, 0.625, 1.25 mm\"\nlargest_gap = \"0.2 cm\"\ntolerance = \"1e-6 cm\"\n"
+    "reference_cell_sizes = \"2.5, 0.625, 1.25 mm\"\nlargest_gap = \"0.2 cm\"\n"
     "settings = [ { \"numerics.cell_size\" = \"2.5, 5 mm\", \"numerics.inertial_scaling\" = [1, 16] },\n"
     "             { friction.closure = [\"none\"] } ]\n" +
     constants_on_even_lattice + "station.width = \"1.3 cm\"\nstation.depth = \"1 cm\"\n";
@@ -35,20 +36,19 @@ run::MechanicsResult converging(const scene::Scene& scene) {
   return result;
 }
 
-/// What came of a study without variants.
-VariantAccuracy result_of(
+AccuracyResult result_of(
     const std::function<run::MechanicsResult(const scene::Scene&)>& mechanics = converging,
     const std::string& text = accuracy_text) {
   StudyOptions options = synthetic_options(2);
   options.runners.mechanics = [mechanics](const scene::Scene& scene, const run::RunOptions&) {
     return mechanics(scene);
   };
-  return run_accuracy(study_of(text), options).variants.front();
+  return run_accuracy(study_of(text), options);
 }
 
-const AccuracyRow& row_of(const VariantAccuracy& result, const std::string& label) {
+const AccuracyRow& row_of(const AccuracyResult& result, const std::string& label) {
   for (const AccuracyRow& row : result.rows) {
-    if (row.setting.label == label) return row;
+    if (row.label == label) return row;
   }
   ADD_FAILURE() << "no row " << label;
   static const AccuracyRow none;
@@ -56,7 +56,7 @@ const AccuracyRow& row_of(const VariantAccuracy& result, const std::string& labe
 }
 
 TEST(Accuracy, FindsTheOrderAndTheLimitOfAManufacturedError) {
-  const VariantAccuracy result = result_of();
+  const AccuracyResult result = result_of();
   ASSERT_TRUE(result.reference) << result.no_reference;
   // Without a gap T max is the initial temperature and the friction heat: 300 + 116.1 K in the limit.
   const ReferenceValue& zero_gap = result.reference->temperature[0];
@@ -69,31 +69,31 @@ TEST(Accuracy, FindsTheOrderAndTheLimitOfAManufacturedError) {
 }
 
 TEST(Accuracy, MeasuresErrorsOfSettingsAgainstTheLimit) {
-  const VariantAccuracy result = result_of();
+  const AccuracyResult result = result_of();
   const AccuracyRow& own = row_of(result, "cell_size 2.5 mm");
   EXPECT_TRUE(own.baseline);
-  EXPECT_TRUE(own.setting.reference);
+  EXPECT_TRUE(own.reference_mesh);
   EXPECT_NEAR(own.temperature_error[0], 2.0, 0.03);
-  EXPECT_GE(own.setting.temperature_bound, own.largest_temperature_error);
-  EXPECT_GT(own.setting.critical_gap, 0);
+  EXPECT_GE(own.temperature_bound, own.largest_temperature_error);
+  EXPECT_GT(own.critical_gap, 0);
   EXPECT_LT(own.critical_gap_error, 0) << "more friction heat, a smaller critical gap";
-  EXPECT_GE(own.setting.critical_gap_bound, std::abs(own.critical_gap_error));
+  EXPECT_GE(own.critical_gap_bound, std::abs(own.critical_gap_error));
   const AccuracyRow& scaled = row_of(result, "cell_size 2.5 mm, inertial_scaling 16");
   EXPECT_NEAR(scaled.temperature_error[0], 4.0, 0.03);  // 2 K and log2(16)/2 K
   EXPECT_FALSE(scaled.baseline);
 }
 
 TEST(Accuracy, TellsAnotherModelFromAnError) {
-  const VariantAccuracy result = result_of();
+  const AccuracyResult result = result_of();
   const AccuracyRow& other = row_of(result, "closure none");
   EXPECT_TRUE(other.other_model);
-  for (const RecordedSetting& each : result.record.settings) EXPECT_NE(each.label, "closure none");
-  EXPECT_EQ(result.record.settings.size(), result.rows.size() - 1);
+  EXPECT_FALSE(other.comparable());
+  EXPECT_EQ(std::ranges::count_if(result.rows, &AccuracyRow::comparable), std::ssize(result.rows) - 1);
 }
 
 TEST(Accuracy, DoesNotExtrapolateWhatDoesNotConverge) {
   // The meshes alternate: 2 K up, then 2 K down.
-  const VariantAccuracy result = result_of([](const scene::Scene& scene) {
+  const AccuracyResult result = result_of([](const scene::Scene& scene) {
     const double cell = scene.numerics.cell_size;
     return synthetic_mechanics(scene, heated_by + (cell > 1e-3 && cell < 2e-3 ? -2.0 : 2.0));
   });
@@ -101,12 +101,11 @@ TEST(Accuracy, DoesNotExtrapolateWhatDoesNotConverge) {
   EXPECT_FALSE(result.reference->temperature[0].limit.justified);
   EXPECT_FALSE(result.reference->temperature[0].limit.reason.empty());
   EXPECT_EQ(result.reference->temperature[0].limit.value, result.reference->temperature[0].values.front());
-  EXPECT_GE(row_of(result, "cell_size 2.5 mm").setting.temperature_bound, 4.0);
-  EXPECT_TRUE(result.any_indeterminate());
+  EXPECT_GE(row_of(result, "cell_size 2.5 mm").temperature_bound, 4.0);
 }
 
 TEST(Accuracy, AReferenceMeshThatFailsLeavesNoReference) {
-  const VariantAccuracy result = result_of([](const scene::Scene& scene) {
+  const AccuracyResult result = result_of([](const scene::Scene& scene) {
     run::MechanicsResult mechanics = converging(scene);
     if (scene.numerics.cell_size < 1e-3) {
       mechanics.status = run::RunStatus::energy_drift;
@@ -116,12 +115,10 @@ TEST(Accuracy, AReferenceMeshThatFailsLeavesNoReference) {
   });
   EXPECT_FALSE(result.reference);
   EXPECT_FALSE(result.no_reference.empty());
-  EXPECT_TRUE(result.any_indeterminate());
-  EXPECT_TRUE(result.record.settings.empty());
 }
 
 TEST(Accuracy, ASettingThatFailsIsARowWithoutNumbers) {
-  const VariantAccuracy result = result_of([](const scene::Scene& scene) {
+  const AccuracyResult result = result_of([](const scene::Scene& scene) {
     run::MechanicsResult mechanics = converging(scene);
     if (scene.numerics.inertial_scaling > 1.0) mechanics.status = run::RunStatus::non_finite;
     return mechanics;
@@ -129,23 +126,50 @@ TEST(Accuracy, ASettingThatFailsIsARowWithoutNumbers) {
   ASSERT_TRUE(result.reference);
   const AccuracyRow& row = row_of(result, "cell_size 2.5 mm, inertial_scaling 16");
   EXPECT_FALSE(row.sound());
-  EXPECT_TRUE(std::isnan(row.setting.temperature_bound));
-  EXPECT_EQ(cheapest_within(result.record, 1e9)->label, "cell_size 5 mm, inertial_scaling 1");
+  EXPECT_TRUE(std::isnan(row.temperature_bound));
+  EXPECT_TRUE(row_of(result, "cell_size 5 mm, inertial_scaling 1").sound());
 }
 
 TEST(Accuracy, ASettingWithAValidityWarningIsShownWithItsErrorAndNotRecommended) {
-  const VariantAccuracy result = result_of([](const scene::Scene& scene) {
+  const AccuracyResult result = result_of([](const scene::Scene& scene) {
     run::MechanicsResult mechanics = converging(scene);
     if (scene.numerics.inertial_scaling > 1.0) mechanics.monitor.back().energy.kinetic = 1.0;
     return mechanics;
   });
   ASSERT_TRUE(result.reference);
   const AccuracyRow& row = row_of(result, "cell_size 2.5 mm, inertial_scaling 16");
-  EXPECT_FALSE(row.validity_warnings.empty());
+  EXPECT_FALSE(row.warnings().empty());
   EXPECT_TRUE(row.computed());
   EXPECT_FALSE(row.sound());
   EXPECT_NEAR(row.temperature_error[0], 4.0, 0.03);
-  for (const RecordedSetting& each : result.record.settings) EXPECT_NE(each.label, row.setting.label);
+  EXPECT_FALSE(row.comparable());
+}
+
+/// All meshes have an inertial scaling of 4, which makes 1 K; one setting has another value.
+AccuracyResult scaled_meshes(const std::string& other) {
+  std::string text = accuracy_text;
+  text.replace(text.find("[1, 16]"), 7, other);
+  return result_of(converging, text + "numerics.inertial_scaling = 4\n");
+}
+
+TEST(Accuracy, KnowsNoBoundWhereAllMeshesAreInexactAndNoSettingVariesThat) {
+  const AccuracyResult result = scaled_meshes("[4, 16]");
+  ASSERT_TRUE(result.reference) << result.no_reference;
+  EXPECT_EQ(result.reference->unvaried, std::vector<std::string>{"numerics.inertial_scaling"});
+  EXPECT_TRUE(std::isnan(result.reference_uncertainty()));
+  for (const AccuracyRow& row : result.rows) EXPECT_TRUE(std::isnan(row.temperature_bound)) << row.label;
+}
+
+TEST(Accuracy, WidensBoundsByThreeTimesTheDifferenceThatTheExactValueMakes) {
+  const AccuracyResult result = scaled_meshes("[1, 4]");
+  ASSERT_TRUE(result.reference) << result.no_reference;
+  EXPECT_TRUE(result.reference->unvaried.empty());
+  // A scaling of 4 makes log2(4)/2 K = 1 K, on cells of 2.5 and 5 mm alike.
+  const ReferenceValue& zero_gap = result.reference->temperature[0];
+  EXPECT_NEAR(zero_gap.inexactness, 3.0, 0.01);
+  const AccuracyRow& own = *result.baseline();
+  EXPECT_GE(own.temperature_bound,
+            zero_gap.inexactness + std::abs(own.temperature[0] - zero_gap.values.front()));
 }
 
 }  // namespace

@@ -1,8 +1,6 @@
 // Fitted constants as inputs, which vary together.
 #include "launchsafe/kinds/sensitivity.hpp"
 #include "launchsafe/math/sensitivity.hpp"
-#include "launchsafe/study/case_answer.hpp"
-#include "launchsafe/study/constants_of_study.hpp"
 #include "sensitivity_files.hpp"
 #include "study/read_error.hpp"
 

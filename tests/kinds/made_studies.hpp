@@ -1,4 +1,4 @@
-// Critical-gap and sensitivity studies of many cases made by hand, with every kind of answer in them.
+// Critical-gap and sensitivity studies of many cases made by hand, with every kind of row in them.
 #pragma once
 
 #include "launchsafe/kinds/critical_gap.hpp"
@@ -26,7 +26,6 @@ inline study::StudyFile bare_study(const study::KindTraits& kind, std::vector<do
   file.study.title = "A made study";
   file.study.scene = "scene_155mm.toml";
   file.study.gaps = std::move(gaps);
-  file.study.numerical_uncertainty = 1.2;
   const auto scene =
       scene::read_scene(std::filesystem::path(LAUNCHSAFE_SOURCE_DIR) / "studies" / "scene_155mm.toml");
   EXPECT_TRUE(scene);
@@ -41,82 +40,74 @@ inline study::Axis axis(const study::StudyFile& file, const std::string& name, c
   return {name, "vary.0.key", description ? *description : scene::KeyDescription{}, std::move(values)};
 }
 
-/// A gap that stays below ignition.
-inline study::GapVerdict verdict(double gap, study::Verdict verdict, double temperature) {
-  study::GapVerdict row;
+/// A gap that stays below ignition, or ignites where it is UNSAFE.
+inline study::GapRow gap_row(double gap, study::Verdict verdict, double temperature) {
+  study::GapRow row;
   row.gap = gap;
   row.maximum = {temperature, 18e-3, "G1"};
   row.early = {350.5, 10e-3, "G1"};
   row.margin = 521.52 - temperature;
-  row.uncertainty.numerical = 1.2;
-  row.of_case = std::make_shared<const study::CaseEvidence>(study::CaseEvidence{.failure = {}});
-  row.judgement = {verdict, verdict == study::Verdict::safe ? study::ReasonCode::margin_over_uncertainty
-                                                            : study::ReasonCode::ignition};
+  row.uncertainty = 1.2;
+  row.judgement = {
+      verdict, verdict == study::Verdict::safe ? study::ReasonCode::below_bound : study::ReasonCode::ignites};
   if (verdict == study::Verdict::unsafe)
     row.ignition = study::NamedIgnition{surface::IgnitionCause::trigger, 17.86e-3, "G1", 0.1};
   return row;
 }
 
-/// Answers of every kind; gaps are judged against the critical gap (m).
-inline study::CaseAnswer answer_with(const study::Study& study, double critical) {
-  study::CaseAnswer answer;
-  answer.run = {run::RunStatus::completed, 1000, 500, 2e-3, {}};
+/// A case whose gaps are judged against the critical gap (m).
+inline study::CaseRow row_with(const study::Study& study, double critical) {
+  study::CaseRow row;
+  row.run = {run::RunStatus::completed, 1000, 500, 2e-3, {}};
   for (const double gap : study.gaps) {
     const bool safe = gap < critical;
-    answer.verdicts.push_back(verdict(gap, safe ? study::Verdict::safe : study::Verdict::unsafe,
-                                      safe ? 416.1 + 2.7e5 * gap : 784.5));
-    answer.verdicts.back().heated = 416.1 + 2.7e5 * gap;
+    row.gaps.push_back(gap_row(gap, safe ? study::Verdict::safe : study::Verdict::unsafe,
+                               safe ? 416.1 + 2.7e5 * gap : 784.5));
+    row.gaps.back().heated = 416.1 + 2.7e5 * gap;
   }
-  return answer;
+  return row;
 }
 
-inline study::CaseAnswer value_answer(const study::Study& study, double critical) {
-  study::CaseAnswer answer = answer_with(study, critical);
-  answer.critical.kind = study::CriticalGapKind::value;
-  answer.critical.value = critical;
-  answer.critical.lower = critical - 5e-7;
-  answer.critical.upper = critical + 5e-7;
-  set_shares(answer.critical, {{study::ShareKind::computation, critical - 4e-6, critical + 4e-6}});
-  return answer;
+inline study::CaseRow value_row(const study::Study& study, double critical) {
+  study::CaseRow row = row_with(study, critical);
+  row.critical = {study::CriticalGapKind::value, critical};
+  row.causes = {{study::Cause::numerics, 4e-6, 4e-6}};
+  row.bounds = study::bounds_of(row.critical, row.causes);
+  return row;
 }
 
-inline study::CaseAnswer all_safe_answer(const study::Study& study) {
-  study::CaseAnswer answer = answer_with(study, 1.0);
-  answer.critical.kind = study::CriticalGapKind::all_safe;
-  answer.critical.lower = 1e-3;
-  answer.critical.reason = {study::GapReasonCode::end_of_search, 1e-3};
-  return answer;
+/// Nothing ignites up to the end of the search, 0.1 cm.
+inline study::CaseRow all_safe_row(const study::Study& study) {
+  study::CaseRow row = row_with(study, 1.0);
+  row.critical = {study::CriticalGapKind::all_safe, 1e-3};
+  row.bounds = study::bounds_of(row.critical, {});
+  return row;
 }
 
-inline study::CaseAnswer all_ignite_answer(const study::Study& study) {
-  study::CaseAnswer answer = answer_with(study, -1.0);
-  answer.critical.kind = study::CriticalGapKind::all_ignite;
-  answer.critical.upper = 0.0;
-  answer.critical.reason = {study::GapReasonCode::always};
-  return answer;
+inline study::CaseRow all_ignite_row(const study::Study& study) {
+  study::CaseRow row = row_with(study, -1.0);
+  row.critical = {study::CriticalGapKind::all_ignite, 0.0};
+  row.bounds = study::bounds_of(row.critical, {});
+  return row;
 }
 
-inline study::CaseAnswer broken_answer(const study::Study& study, const std::string& why) {
-  study::CaseAnswer answer;
-  answer.failure = why;
-  answer.run.status = run::RunStatus::energy_drift;
-  const auto evidence = std::make_shared<const study::CaseEvidence>(study::CaseEvidence{.failure = why});
-  answer.critical.reason = study::why_no_critical_gap(*evidence);
+inline study::CaseRow broken_row(const study::Study& study, const std::string& why) {
+  study::CaseRow row;
+  row.failure = why;
+  row.run.status = run::RunStatus::energy_drift;
   for (const double gap : study.gaps) {
-    study::GapVerdict row;
-    row.gap = gap;
-    row.of_case = evidence;
-    row.judgement = {study::Verdict::indeterminate, study::ReasonCode::failed};
-    answer.verdicts.push_back(std::move(row));
+    study::GapRow& each = row.gaps.emplace_back();
+    each.gap = gap;
+    each.judgement = {study::Verdict::indeterminate, study::ReasonCode::failed};
   }
-  return answer;
+  return row;
 }
 
-using Answerer = std::function<study::CaseAnswer(const study::Study&, const std::vector<double>&)>;
+using RowMaker = std::function<study::CaseRow(const study::Study&, const std::vector<double>&)>;
 
-/// The full factorial of the study's axes, the last fastest, each case answered by a function of its
-/// coordinates.
-inline kinds::CriticalGapResult swept(study::StudyFile file, const Answerer& answerer) {
+/// The full factorial of the study's axes, the last fastest, with the row of each case by a function of
+/// its coordinates.
+inline kinds::CriticalGapResult swept(study::StudyFile file, const RowMaker& row_of) {
   std::vector<std::vector<double>> places{{}};
   for (const study::Axis& each : file.study.axes) {
     std::vector<std::vector<double>> longer;
@@ -134,9 +125,8 @@ inline kinds::CriticalGapResult swept(study::StudyFile file, const Answerer& ans
     input.coordinates = place;
     input.label = "case " + std::to_string(file.cases.size() + 1);
     input.scene = file.scene;
-    input.numerical_uncertainty = file.study.numerical_uncertainty;
     file.cases.add(std::move(input));
-    result.answers.push_back(answerer(file.study, place));
+    result.rows.push_back(row_of(file.study, place));
   }
   result.study = std::move(file);
   result.timing = {12.5, 3, 0, 2};
@@ -157,12 +147,12 @@ inline kinds::CriticalGapResult made_sweep(std::vector<double> more = {}, const 
   if (!more.empty()) file.study.axes.push_back(axis(file, more_key, more_key, std::move(more)));
   return swept(std::move(file), [](const study::Study& study, const std::vector<double>& place) {
     const double critical = closed_form(place[0], place[1]);
-    if (place[0] == 450e6 && place[1] == 100e-6) return broken_answer(study, "energy drift 0.2 at 3 ms");
-    if (critical > 1e-3) return all_safe_answer(study);
-    if (critical < 1.1e-4) return all_ignite_answer(study);
-    study::CaseAnswer answer = value_answer(study, critical);
-    if (place[0] == 600e6) answer.run.limiters.crack_at_bound = 12;
-    return answer;
+    if (place[0] == 450e6 && place[1] == 100e-6) return broken_row(study, "energy drift 0.2 at 3 ms");
+    if (critical > 1e-3) return all_safe_row(study);
+    if (critical < 1.1e-4) return all_ignite_row(study);
+    study::CaseRow row = value_row(study, critical);
+    if (place[0] == 600e6) row.run.limiters.crack_at_bound = 12;
+    return row;
   });
 }
 
@@ -187,18 +177,16 @@ inline kinds::SensitivityResult made_sensitivity() {
     each.label = "sample " + std::to_string(i + 1);
     each.coordinates = {400e6 + 10e6 * static_cast<double>(i), 30e-6, 1e-3};
     each.scene = file.scene;
-    each.numerical_uncertainty = file.study.numerical_uncertainty;
     file.cases.add(std::move(each));
-    result.answers.push_back(value_answer(file.study, 4e-4 - 1e-6 * static_cast<double>(i)));
+    result.rows.push_back(value_row(file.study, 4e-4 - 1e-6 * static_cast<double>(i)));
   }
   for (const auto which : {kinds::SensitivityOutput::maximum_temperature,
                            kinds::SensitivityOutput::critical_gap, kinds::SensitivityOutput::margin}) {
     kinds::OutputSensitivity output;
     output.output = which;
     const bool is_gap = which == kinds::SensitivityOutput::critical_gap;
-    for (std::size_t i = 0; i < result.answers.size(); ++i)
-      output.values.push_back(is_gap ? result.answers[i].critical.value
-                                     : result.answers[i].verdicts.front().heated);
+    for (std::size_t i = 0; i < result.rows.size(); ++i)
+      output.values.push_back(is_gap ? result.rows[i].critical.value : result.rows[i].gaps.front().heated);
     output.mean = is_gap ? 3.9e-4 : 470.0;
     output.deviation = is_gap ? 5e-6 : 12.0;
     output.sobol.inputs = {{estimate(0.6, 0.1), estimate(0.7, 0.1)},

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "launchsafe/kinds/critical_gap.hpp"
-#include "launchsafe/study/case_answer.hpp"
+#include "launchsafe/study/case_rows.hpp"
 #include "launchsafe/study/run_cases.hpp"
 #include "store/temporary_folder.hpp"
 #include "study/synthetic_launch.hpp"
@@ -20,44 +20,30 @@ namespace launchsafe::study {
 
 using kinds::CriticalGapResult, kinds::run_critical_gap;
 
-inline bool any_failed(const std::vector<CaseAnswer>& answers) {
-  return !std::ranges::all_of(answers, &CaseAnswer::completed);
+inline bool any_failed(const std::vector<CaseRow>& rows) {
+  return !std::ranges::all_of(rows, &CaseRow::completed);
 }
 
 /// What varies: keys and their values.
 using VariedKeys = std::vector<std::pair<std::string, std::string>>;
 
-/// `synthetic_constants` without those that vary.
-inline std::string constants_beside(const VariedKeys& varied) {
-  std::string text;
-  std::istringstream lines(synthetic_constants);
-  for (std::string line; std::getline(lines, line);)
-    if (std::ranges::find(varied, line.substr(0, line.find(' ')), &VariedKeys::value_type::first) ==
-        varied.end())
-      text += line + '\n';
-  return text;
-}
-
-/// A sweep, answered as one of many cases however few it has.
+/// A sweep that is judged as one of many cases, however few it has.
 inline StudyFile sweep_of(const std::string& gaps, const VariedKeys& varied,
                           const std::string& largest_gap = "0.2 cm", const std::string& more = {},
                           const std::string& first = {}) {
-  return lean_study_of(
-      first + "largest_gap = \"" + largest_gap + "\"\n" + critical_text +
-      "numerical_uncertainty = { value = \"1 K\", because = \"for a test\" }\n"
-      "accept = [{ key = \"gap.exchange_time\", value = \"0.3 ms\", because = \"constants of a synthetic "
-      "launch\" }, { key = \"kinetics.ignition_temperature\", value = \"400 to 700 K\", because = \"bounds "
-      "are sought\" }, { key = \"calibration.interfaces\", value = \"base sliding, friction 0; nose sliding, "
-      "friction 0; wall sliding, friction 0\", because = \"a synthetic launch\" }]\n" +
-      (gaps.empty() ? gaps : "gaps = \"" + gaps + "\"\n") + vary(varied) + constants_beside(varied) + more);
+  return lean_study_of(first + "largest_gap = \"" + largest_gap + "\"\n" + critical_text +
+                       (gaps.empty() ? gaps : "gaps = \"" + gaps + "\"\n") + vary(varied) +
+                       synthetic_constants + more);
 }
 
-/// Two pressures, two crack radii, and two exchange times, which are no matter of the mechanics.
-inline VariedKeys two_by_two_by_two(const std::string& times = "0.225, 0.3 ms") {
-  return {{"peak_pressure", "400, 496 MPa"}, {"crack_radius", "10, 100 um"}, {"gap.exchange_time", times}};
+/// Two pressures, two crack radii, and two activation temperatures, which are no matter of the mechanics.
+inline VariedKeys two_by_two_by_two(const std::string& activation = "21200, 22200 K") {
+  return {{"peak_pressure", "400, 496 MPa"},
+          {"crack_radius", "10, 50 um"},
+          {"kinetics.activation_temperature", activation}};
 }
-inline StudyFile two_by_two_by_two_of(const std::string& times = "0.225, 0.3 ms") {
-  return sweep_of("0, 0.02, 0.04 cm", two_by_two_by_two(times));
+inline StudyFile two_by_two_by_two_of(const std::string& activation = "21200, 22200 K") {
+  return sweep_of("0, 0.02, 0.04 cm", two_by_two_by_two(activation));
 }
 
 /// The synthetic launch, counting its runs by peak pressure.
@@ -96,10 +82,18 @@ class Counting {
   std::map<double, int> runs_;
 };
 
+/// All that a row has to say, in all digits.
+inline std::string line_of(const CaseRow& row) {
+  std::string line = fmt::format("{} {} {} {}", row.critical.value, row.bounds.at_least, row.bounds.at_most,
+                                 row.failure + row.incomplete);
+  for (const CauseShare& each : row.causes) line += fmt::format(" {} {}", each.shorter, each.longer);
+  for (const GapRow& gap : row.gaps)
+    line += fmt::format("; {} {} {}", gap.maximum.temperature, gap.uncertainty, reason_text(row, gap));
+  return line;
+}
+
 inline std::vector<std::string> lines_of(const CriticalGapResult& result) {
-  std::vector<std::string> lines;
-  for (const CaseAnswer& answer : result.answers) lines.push_back(bytes_of(answer));
-  return lines;
+  return of_each(result.rows, line_of);
 }
 
 /// Sweeps with a store in a folder of the test's own.

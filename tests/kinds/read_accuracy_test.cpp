@@ -58,43 +58,4 @@ TEST(ReadAccuracy, RefusesSettingsThatMeanNothing) {
   refuse("[[settings]]\ngap.thickness = \"0.01 cm\"\n", {5, "settings.gap.thickness", ""});
 }
 
-TEST(ReadAccuracy, AVariantIsTheStudyWithWhatItSaysOtherwise) {
-  const StudyFile study =
-      study_of(accuracy_start + meshes +
-               "title = \"all\"\n[set]\nload.peak = \"400 MPa\"\n"
-               "numerics.time_step_factor = 0.5\n[[settings]]\nnumerics.inertial_scaling = 4\n"
-               "[[variant]]\nname = \"a\"\n"
-               "[[variant]]\nname = \"b_0.1\"\ntitle = \"second\"\n"
-               "reference_cell_sizes = \"0.834, 1.25, 2.5 mm\"\n"
-               "set = { load.peak = \"300 MPa\" }\n"
-               "[[variant.settings]]\nnumerics.cell_size = \"5 mm\"\n");
-  const auto& variants = kinds::settings_of<AccuracySettings>(study.study).variants;
-  ASSERT_EQ(variants.size(), 2u);
-  const scene::Scene &first = variants[0].study.scene.scene, &second = variants[1].study.scene.scene;
-  EXPECT_EQ(first.load.peak, 400e6);
-  EXPECT_EQ(second.load.peak, 300e6);
-  EXPECT_EQ(second.numerics.time_step_factor, 0.5) << "of [set] for all";
-  EXPECT_EQ(study.scene.scene.load.peak, 400e6) << "the first is the study's own";
-  EXPECT_EQ(variants[0].study.study.title, "all");
-  EXPECT_EQ(variants[1].study.study.title, "second");
-  std::vector<std::string> labels;
-  for (const StudyCase& each : study.cases) labels.push_back(each.label);
-  EXPECT_EQ(labels, (std::vector<std::string>{"a: cell_size 0.417 mm", "a: cell_size 0.625 mm",
-                                              "a: cell_size 1.25 mm", "a: inertial_scaling 4",
-                                              "b_0.1: cell_size 0.834 mm", "b_0.1: cell_size 1.25 mm",
-                                              "b_0.1: cell_size 2.5 mm", "b_0.1: cell_size 5 mm"}));
-}
-
-TEST(ReadAccuracy, RefusesVariantsThatCannotBeToldApartOrMeanNothing) {
-  const auto refuse = [](const std::string& variants, const ExpectedError& expected) {
-    expect_error_in(accuracy_start + meshes + variants, expected);
-  };
-  refuse("[[variant]]\ntitle = \"a\"\n", {4, "variant.name", ""});
-  refuse("[[variant]]\nname = \"a\"\n[[variant]]\nname = \"a\"\n", {7, "variant.name", ""});
-  refuse("[[variant]]\nname = \"a\"\nkind = \"sweep\"\n", {6, "variant.kind", "sweep"});
-  // Faults within are named as in a study, at their line.
-  refuse("[[variant]]\nname = \"a\"\nset = { load.peek = \"1 GPa\" }\n",
-         {6, "set.load.peek", "", "", "load.peak"});
-}
-
 }  // namespace

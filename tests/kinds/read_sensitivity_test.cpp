@@ -1,6 +1,4 @@
 #include "launchsafe/kinds/sensitivity.hpp"
-#include "launchsafe/study/case_answer.hpp"
-#include "launchsafe/study/constants_of_study.hpp"
 #include "sensitivity_files.hpp"
 #include "study/read_error.hpp"
 
@@ -40,13 +38,13 @@ TEST(ReadSensitivity, ATemperatureMayBeInCelsiusButItsDeviationMayNot) {
 }
 
 TEST(ReadSensitivity, ReadsInputs) {
-  const StudyFile file = study_of(sensitivity_start + "samples = 8\nseed = 7\ntolerance = \"2 um\"\n" +
+  const StudyFile file = study_of(sensitivity_start + "samples = 8\nseed = 7\nlargest_gap = \"0.2 cm\"\n" +
                                   crack + steepness + flaw);
   const Study& study = file.study;
   EXPECT_EQ(study.kind.name, kinds::traits_of("sensitivity").name);
   EXPECT_EQ(kinds::settings_of<kinds::SensitivitySettings>(study).samples, 8);
   EXPECT_EQ(kinds::settings_of<kinds::SensitivitySettings>(study).seed, 7u);
-  EXPECT_EQ(study.tolerance, 2e-6);
+  EXPECT_EQ(study.largest_gap, 2e-3);
   EXPECT_EQ(study.gaps, std::vector<double>{2e-4});
   ASSERT_EQ(study.axes.size(), 3u);
   EXPECT_EQ(study.axes[0].name, "crack_radius");

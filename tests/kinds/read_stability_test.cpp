@@ -12,8 +12,7 @@ using namespace launchsafe::study;
 
 /// The group starts at line 4, its own keys at line 6.
 const std::string stability_start =
-    "kind = \"stability\"\nscene = \"stability/small_shell.toml\"\nnumerical_uncertainty = { value = \"4 "
-    "K\", because = \"for a test\" }\n"
+    "kind = \"stability\"\nscene = \"stability/small_shell.toml\"\ntemperature_tolerance = \"5 K\"\n"
     "[[group]]\nname = \"load\"\n";
 
 std::string cases(const std::string& keys) { return "cases = [ { name = \"high\", " + keys + " } ]\n"; }
@@ -27,9 +26,9 @@ TEST(ReadStability, ACaseAddsToWhatItsGroupSetsAndReplacesWhatElseItSays) {
       stability_start +
       "set = { load.peak = \"1 GPa\", numerics.time_step_factor = 0.6 }\n"
       "against = { numerics.time_step_factor = 0.1 }\nexpect = \"held, caught\"\n"
-      "caught_within = 500\nnumerical_uncertainty = \"9 K\"\ncases = [ { name = \"high\" },\n"
+      "caught_within = 500\ntolerance = \"9 K\"\ncases = [ { name = \"high\" },\n"
       "{ name = \"other\", set = { load.peak = \"2 GPa\", gap.thickness = \"0, 1 mm\" }, against = {}, "
-      "expect = \"held\", numerical_uncertainty = \"3 K\" } ]\n"
+      "expect = \"held\", tolerance = \"3 K\" } ]\n"
       "[set]\ngap.exchange_time = \"0.01 ms\"\n");
   ASSERT_EQ(cases_of(study).size(), 2u);
   const StressCase &high = cases_of(study)[0], &other = cases_of(study)[1];
@@ -44,26 +43,26 @@ TEST(ReadStability, ACaseAddsToWhatItsGroupSetsAndReplacesWhatElseItSays) {
   EXPECT_FALSE(other.against);
   EXPECT_EQ(other.gaps, (std::vector<double>{0.0, 1e-3}));
   const std::vector<std::string> labels{"load: high", "load: high, against", "load: other"};
-  const std::vector<double> peaks{1e9, 1e9, 2e9}, factors{0.6, 0.1, 0.6}, uncertainties{9, 9, 3};
+  EXPECT_EQ(high.tolerance, 9.0);
+  EXPECT_EQ(other.tolerance, 3.0);
+  const std::vector<double> peaks{1e9, 1e9, 2e9}, factors{0.6, 0.1, 0.6};
   ASSERT_EQ(study.cases.size(), 3u);
   for (std::size_t i = 0; i < 3; ++i) {
     EXPECT_EQ(study.cases[i].label, labels[i]);
     EXPECT_EQ(study.cases[i].scene.scene.load.peak, peaks[i]);
     EXPECT_EQ(study.cases[i].scene.scene.numerics.time_step_factor, factors[i]);
     EXPECT_EQ(study.cases[i].scene.scene.surface.exchange_time, 1e-5);
-    EXPECT_EQ(study.cases[i].numerical_uncertainty, uncertainties[i]);
   }
 }
 
-TEST(ReadStability, ACaseMayHaveASceneOfItsOwnAndTheStudysUncertainty) {
+TEST(ReadStability, ACaseMayHaveASceneOfItsOwnAndTheStudysTolerance) {
   const StudyFile study =
       study_of(stability_start + cases("scene = \"scene_155mm.toml\", set = { load.peak = \"1 GPa\" }") +
                "[set]\nnumerics.inertial_scaling = 16\n");
   ASSERT_EQ(study.cases.size(), 1u);
   EXPECT_EQ(study.cases[0].scene.scene.load.muzzle_exit, 18e-3);
   EXPECT_EQ(study.cases[0].scene.scene.numerics.inertial_scaling, 16.0);
-  EXPECT_EQ(study.cases[0].numerical_uncertainty, 4.0);
-  EXPECT_FALSE(study.cases[0].numerical_uncertainty_assumed);
+  EXPECT_EQ(cases_of(study)[0].tolerance, 5.0);
 }
 
 TEST(ReadStability, WhatTheReaderRefusesIsACaseWithoutARun) {
@@ -94,7 +93,7 @@ TEST(ReadStability, FaultsNameTheTableTheKeyAndTheLine) {
   expect("caught_within = 9, expect = \"held\"", {6, "group.cases.caught_within", "9"});
   expect("set = { } }, { name = \"high\"", {6, "group.cases.name", "\"high\""});
   expect_error_in(stability_start, {4, "group.cases", ""});
-  expect_error_in("kind = \"stability\"\nscene = \"scene_155mm.toml\"\n", {0, "numerical_uncertainty", ""});
+  expect("tolerance = \"0 K\"", {6, "group.cases.tolerance", "0 K"});
 }
 
 TEST(ReadStability, TheShippedTablesAreValid) {

@@ -1,6 +1,6 @@
 #include "launchsafe/kinds/critical_gap.hpp"
 #include "launchsafe/kinds/kind.hpp"
-#include "launchsafe/study/case_answer.hpp"
+#include "launchsafe/study/case_rows.hpp"
 #include "study/read_error.hpp"
 
 #include <fstream>
@@ -38,21 +38,21 @@ TEST(ReadVary, MakesTheProductOfTheAxesInTheOrderWritten) {
   const StudyFile study = study_of(critical_kind + "gaps = \"0, 0.02 cm\"\n" +
                                    vary({{"load.peak", "400, 496 MPa"},
                                          {"flaw_size", "[\"1 mm\", \"2 mm\"]"},
-                                         {"load.steepness", "[1.5, 1.4, 1.3]"},
+                                         {"charge.sliding_friction", "[0.5, 0.4, 0.3]"},
                                          {"crack_radius", "30 um"}}));
   EXPECT_EQ(study.study.gaps, (std::vector<double>{0.0, 2e-4}));
   ASSERT_EQ(study.study.axes.size(), 4u);
-  const char* names[] = {"peak_pressure", "flaw_size", "load.steepness", "crack_radius"};
-  const char* keys[] = {"load.peak", "charge.flaw_size", "load.steepness", "charge.crack_radius"};
+  const char* names[] = {"peak_pressure", "flaw_size", "charge.sliding_friction", "crack_radius"};
+  const char* keys[] = {"load.peak", "charge.flaw_size", "charge.sliding_friction", "charge.crack_radius"};
   for (std::size_t i = 0; i < 4; ++i) {
     EXPECT_EQ(study.study.axes[i].name, names[i]);
     EXPECT_EQ(study.study.axes[i].key.name, keys[i]);
   }
-  EXPECT_EQ(study.study.axes[2].values, (std::vector<double>{1.5, 1.4, 1.3}));
+  EXPECT_EQ(study.study.axes[2].values, (std::vector<double>{0.5, 0.4, 0.3}));
   ASSERT_EQ(study.cases.size(), 12u);
   const StudyCase& second = study.cases[1];
-  EXPECT_EQ(second.label, "peak_pressure 400 MPa, flaw_size 0.1 cm, load.steepness 1.4, crack_radius 30 µm");
-  EXPECT_EQ(second.coordinates, (std::vector<double>{400e6, 1e-3, 1.4, 30e-6}));
+  EXPECT_EQ(second.label, "peak_pressure 400 MPa, flaw_size 0.1 cm, charge.sliding_friction 0.4, crack_radius 30 µm");
+  EXPECT_EQ(second.coordinates, (std::vector<double>{400e6, 1e-3, 0.4, 30e-6}));
   EXPECT_EQ(second.peak_pressure, 400e6);
   EXPECT_EQ(second.strength().flaw_size, 1e-3);
   EXPECT_EQ(second.strength().initial_crack_radius, 30e-6);
@@ -60,7 +60,7 @@ TEST(ReadVary, MakesTheProductOfTheAxesInTheOrderWritten) {
   const scene::Scene& last = study.cases.back().scene.scene;
   EXPECT_EQ(last.load.peak, 496e6);
   EXPECT_EQ(last.charge().strength.flaw_size, 2e-3);
-  EXPECT_EQ(last.load.steepness, 1.3);
+  EXPECT_EQ(last.charge().sliding_friction, 0.3);
 }
 
 TEST(ReadVary, WithoutItIsTheSceneAlone) {
@@ -93,27 +93,9 @@ TEST(ReadVary, OnlyAnotherLaunchIsNotTheReferences) {
     return study_of(critical_kind + vary({{key, value}})).cases[0].own_conditions;
   };
   EXPECT_TRUE(own("numerics.cell_size", "5 mm"));
-  EXPECT_TRUE(own("friction.localisation", "[500]"));
   EXPECT_TRUE(own("charge.density", "1717 kg/m3"));
   EXPECT_FALSE(own("charge.density", "1700 kg/m3"));
-  EXPECT_FALSE(own("load.steepness", "[1.5]"));
   EXPECT_FALSE(own("initial_temperature", "310 K"));
-}
-
-TEST(ReadVary, NumericsThatVaryHaveNoStatedUncertainty) {
-  const std::string start = "numerical_uncertainty = { value = \"1 K\", because = \"for a test\" }\n";
-  EXPECT_EQ(numerical_uncertainty_of(study_of(critical_kind + start + vary({{"peak_pressure", "400 MPa"}})))
-                .largest,
-            1.0);
-  const StudyFile other = study_of(critical_kind + start + vary({{"numerics.cell_size", "2.5, 5 mm"}}));
-  EXPECT_EQ(numerical_uncertainty_of(other).largest, assumed_numerical_uncertainty);
-  EXPECT_TRUE(numerical_uncertainty_of(other).assumed);
-  // An even grid with cells of 5 mm does not run along the charge; a lattice always does.
-  const StudyFile off_grid = study_of(
-      critical_kind + start + vary({{"numerics.cell_size", "2.5, 5 mm"}}) +
-      "[set]\nnumerics.formulation = \"updated-lagrangian\"\nnumerics.growth_x = 1\nnumerics.growth_r = 1\n"
-      "interface.nose.condition = \"bonded\"\ninterface.wall.condition = \"bonded\"\n");
-  EXPECT_EQ(numerical_uncertainty_of(off_grid).largest, assumed_uncertainty_off_grid);
 }
 
 TEST(ReadVary, FaultsNameFileLineAndKey) {
@@ -156,17 +138,19 @@ TEST(ReadVary, WhatAKindCannotMakeUseOfIsRefused) {
 TEST(ReadVary, TheAnalyticLoadDoesNotVaryUnderAMeasuredCurve) {
   const std::string file = ::testing::TempDir() + "read_vary_curve.csv";
   std::ofstream(file) << "time_ms,pressure_MPa\n0,0\n5,400\n18,0\n";
-  const std::string curve = "[set]\nload.curve = \"" + file + "\"\n";
+  const std::string curve = "[set]\nload.curve = \"" + file + "\"\nload.expected_velocity = \"1063 m/s\"\n";
   const std::string peak = varied("peak_pressure", "values = \"300 MPa\"\n" + curve);
   expect_error_in(peak, {4, "vary.key", "load.peak"});
   expect_error_in(varied("load.steepness", "values = [10]\n" + curve), {4, "vary.key", ""});
-  const StudyFile study = study_of(peak + "load.rescale_to_peak = true\n");
+  const std::string scaled = "values = \"300 MPa\"\n[set]\nload.curve = \"" + file +
+                             "\"\nload.rescale_to_peak = true\nload.expected_velocity = \"1318 m/s\"\n";
+  const StudyFile study = study_of(varied("peak_pressure", scaled));
   EXPECT_EQ(study.cases[0].peak_pressure, 300e6);
   EXPECT_TRUE(study_of(critical_kind + curve).cases[0].own_conditions);
 }
 
 TEST(ReadVary, ThereIsAMostOfCases) {
-  expect_error_in(critical_kind + vary({{"load.steepness", "[" + numbers(101, 1.0, 0.01) + "]"},
+  expect_error_in(critical_kind + vary({{"charge.sliding_friction", "[" + numbers(101, 0.1, 0.01) + "]"},
                                         {"charge.face_friction", "[" + numbers(101, 0.0, 0.01) + "]"},
                                         {"steel.gruneisen", "[" + numbers(101, 1.0, 0.01) + "]"}}),
                   {3, "vary.key", "1030301", "1000000"});

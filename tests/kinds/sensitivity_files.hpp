@@ -1,7 +1,6 @@
 // The beginnings of study files of kind sensitivity, and what is expected of them.
 #pragma once
 
-#include "launchsafe/study/case_answer.hpp"
 #include "study/read_error.hpp"
 
 namespace launchsafe::study {

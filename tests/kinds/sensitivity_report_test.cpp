@@ -28,7 +28,7 @@ std::string text_of(const Cell& cell) {
 /// Lets the third evaluation fail.
 SensitivityResult with_failure() {
   SensitivityResult result = made_sensitivity();
-  result.answers[2] = broken_answer(result.study.study, "energy drift 0.2 at 3 ms");
+  result.rows[2] = broken_row(result.study.study, "energy drift 0.2 at 3 ms");
   for (OutputSensitivity& output : result.outputs) output.values[2] = study::not_a_number;
   return result;
 }

@@ -19,7 +19,7 @@ TEST(StabilityMatrix, HasNoCaseThatIsWrongOrUnexpected) {
   const StabilityResult result = run_stability(*study, options);
   for (const StressCaseRow& row : result.rows)
     EXPECT_TRUE(row.is_as_expected()) << row.asked.label() << ": " << to_string(row.finding.outcome) << ", "
-                                      << row.finding.text << row.answer.failure;
+                                      << row.finding.text << row.result.failure;
   for (const auto outcome : {Outcome::held, Outcome::degraded, Outcome::caught})
     EXPECT_GT(result.count(outcome), 0u) << to_string(outcome);
 }

@@ -27,10 +27,12 @@ StressCaseRow row(const std::string& group, const std::string& name, Outcome out
 
 /// With one gap.
 StressCaseRow launch(StressCaseRow made) {
-  made.answer.run = {run::RunStatus::completed, 21000, 9207, 4e-5, {}};
+  made.result.run = {run::RunStatus::completed, 21000, 9207, 4e-5, {}};
   made.end_time = 18e-3;
-  made.answer.verdicts = {verdict(2e-4, Verdict::safe, 471.0)};
-  made.answer.verdicts.front().heated = 471.0;
+  GapRow gap;
+  gap.gap = 2e-4;
+  gap.maximum.temperature = gap.heated = 471.0;
+  made.result.gaps = {gap};
   return made;
 }
 
@@ -38,24 +40,24 @@ StressCaseRow launch(StressCaseRow made) {
 StabilityResult made_stability() {
   StabilityResult result;
   result.study = bare_study(kinds::traits_of("stability"), {2e-4});
-  const std::string off = "off by | 11 K, more than 4 K; 0.02 cm: T max 471.0 K, SAFE";
+  const std::string off = "off by | 11 K, more than 4 K; 0.02 cm: T max 471.0 K, does not ignite";
   StressCaseRow wrong = launch(row("load", "wrong", Outcome::wrong, off));
   wrong.heated_against = {460.0};
   wrong.deviations = {11.0};
   StressCaseRow late = row("load", "late", Outcome::degraded, "caught late; after 640 steps");
   late.asked.expected = {Outcome::caught};
   StressCaseRow lost = row("load", "lost", Outcome::wrong, "");
-  lost.answer.outcome = RunOutcome::failed;
-  lost.answer.failure = "the run failed: no more memory";
+  lost.result.outcome = RunOutcome::failed;
+  lost.result.failure = "the run failed: no more memory";
   result.rows = {row("load", "reader", Outcome::caught, "refused: \"at least 0\"; load.peak: found -1"),
-                 wrong, launch(row("contact", "sound", Outcome::held, "SAFE")), late, lost};
+                 wrong, launch(row("contact", "sound", Outcome::held, "does not ignite")), late, lost};
   return result;
 }
 
 TEST(StabilityReport, TheAnswerCountsAndNamesWhatIsWrongUnexpectedAndNotComputed) {
   const std::string text = answer(made_stability());
   EXPECT_TRUE(in_order(text, {"5 stress cases", "1 held", "1 degraded", "1 caught", "1 WRONG"}));
-  EXPECT_TRUE(in_order(text, {"load: wrong: WRONG: ", "0.02 cm", "471.0 K", "SAFE",
+  EXPECT_TRUE(in_order(text, {"load: wrong: WRONG: ", "0.02 cm", "471.0 K", "does not ignite",
                               "load: late: degraded: ", "load: lost: not computed: ", "no more memory"}));
 }
 
@@ -83,7 +85,7 @@ TEST(StabilityReport, JsonHoldsCountsAndCasesWithTheirNumbers) {
     for (const auto& [key, value] : expected.items()) EXPECT_EQ(json["cases"][row][key], value) << key;
   };
   expect_part(1, R"({"outcome": "WRONG", "deviation_K": 11.0, "safe_computation_K": 460.0,
-                     "temperature_max_inert_K": 471.0, "steps": 21000})");
+                     "temperature_max_inert_K": 471.0, "steps": 21000, "state": "does not ignite"})");
   expect_part(3, R"({"as_expected": "no", "expected": "caught"})");
   expect_part(4, R"({"outcome": "not computed", "finding": "the run failed: no more memory"})");
 }

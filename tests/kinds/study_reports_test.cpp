@@ -27,15 +27,15 @@ CriticalGapResult one_case() {
 
 TEST(CriticalGapReport, JsonHasTheKeysThatOtherProgramsReadFrom) {
   const auto json = json_of(one_case());
-  for (const char* key : {"critical_gap", "verdicts", "fit", "timing", "cases"})
+  for (const char* key : {"critical_gap", "verdicts", "causes", "fit", "timing", "cases"})
     EXPECT_TRUE(json.contains(key)) << key;
   const auto& critical = json["critical_gap"];
-  for (const char* key :
-       {"critical_gap_cm", "critical_gap_lower_cm", "critical_gap_upper_cm", "critical_gap_kind", "reason"})
+  for (const char* key : {"critical_gap_cm", "critical_gap_at_least_cm", "critical_gap_at_most_cm",
+                          "critical_gap_kind", "largest_safe_gap_cm", "reason"})
     EXPECT_TRUE(critical.contains(key)) << key;
   EXPECT_EQ(critical["critical_gap_kind"], "value");
-  EXPECT_LE(critical["critical_gap_upper_cm"].get<double>() - critical["critical_gap_lower_cm"].get<double>(),
-            1e-4);
+  EXPECT_LT(critical["critical_gap_at_least_cm"], critical["critical_gap_cm"]);
+  EXPECT_GT(critical["critical_gap_at_most_cm"], critical["critical_gap_cm"]);
   ASSERT_EQ(json["verdicts"].size(), 3u);
   for (const char* key :
        {"gap_cm", "peak_pressure_MPa", "crack_radius_um", "flaw_size_mm", "temperature_max_K",
@@ -50,44 +50,16 @@ TEST(CriticalGapReport, JsonHasTheKeysThatOtherProgramsReadFrom) {
   for (const char* key : {"wall_time_s", "runs", "reused"}) EXPECT_TRUE(json["timing"].contains(key));
 }
 
-TEST(CriticalGapReport, TellsWhichSharesAreAssumedUntilTheStudyStatesThem) {
-  const auto assumed = [](const std::string& keys) {
-    return json_of(run_critical_gap(study_of(keys + study_text + synthetic_constants), synthetic_options()))
-        .at("assumed");
-  };
-  const auto alone = assumed("");
-  EXPECT_TRUE(alone.contains("numerical_uncertainty"));
-  EXPECT_EQ(alone.size(), 1u) << "the study states the others";
-  EXPECT_TRUE(assumed("numerical_uncertainty = { value = \"5 K\", because = \"a mesh study\" }\n").empty());
-}
-
-// The largest with all smaller ones: a gap that is not SAFE ends it, in whatever order they were asked.
-TEST(CriticalGapReport, TellsTheLargestSafeGapOfTheComputedOnes) {
-  const auto gap = [](double width, study::Verdict verdict) {
-    study::GapVerdict row;
-    row.gap = width;
-    row.judgement.verdict = verdict;
-    return row;
-  };
-  using enum study::Verdict;
-  EXPECT_EQ(largest_safe_gap({gap(3e-4, safe), gap(1e-4, safe), gap(2e-4, indeterminate)}), 1e-4);
-  EXPECT_EQ(largest_safe_gap({gap(0, safe), gap(2e-4, safe)}), 2e-4);
-  EXPECT_TRUE(std::isnan(largest_safe_gap({gap(0, unsafe), gap(1e-4, safe)})));
-}
-
-// What a cause moves the critical gap by is less than a wide bracket: with 0.005 cm the shipped study had a
-// lower bound of 0.0317 cm, and with 0.0001 cm one of 0.0273 cm.
-TEST(CriticalGapReport, AWideToleranceRaisesNoLowerBound) {
-  const auto bounds_with = [](const std::string& tolerance) {
-    const std::string key = "tolerance = \"" + tolerance + "\"\n";
-    return run_critical_gap(study_of(key + study_text + synthetic_constants), synthetic_options())
-        .details.front()
-        .critical;
-  };
-  const CriticalGap fine = bounds_with("0.0001 cm"), wide = bounds_with("0.01 cm");
-  ASSERT_TRUE(std::isfinite(fine.bounds.at_least));
-  EXPECT_EQ(wide.bounds.at_least, fine.bounds.at_least);
-  EXPECT_EQ(wide.lower, fine.lower);
+// 100 um lie outside of the interval of the shipped constants, 0 to 60 um.
+TEST(CriticalGapReport, NamesTheIntervalsThatALaunchLiesOutsideOf) {
+  const std::string cracks = "charge.crack_radius = \"100 um\"\n";
+  const CriticalGapResult result =
+      run_critical_gap(study_of(study_text + synthetic_constants + cracks), synthetic_options());
+  const auto json = json_of(result);
+  EXPECT_EQ(json["critical_gap"]["basis"], "extrapolated");
+  EXPECT_EQ(json["critical_gap"]["extrapolated"], "crack_radius");
+  EXPECT_NE(answer(result).find("crack_radius"), std::string::npos) << answer(result);
+  EXPECT_EQ(json_of(one_case())["critical_gap"]["basis"], "calibrated");
 }
 
 // A published number is fitted where the constants of the scene were fitted to it.

@@ -40,18 +40,13 @@ TEST(PageTexts, TellWhetherANumberIsOverAnotherFact) {
 TEST(PageTexts, TellHowManyRowsHaveSomething) {
   const Row facts{{"rows",
                    {{{"verdict", "SAFE"}, {"warning", ""}, {"fault", nullptr}},
-                    {{"verdict", "INDETERMINATE"}, {"warning", ""}, {"fault", "drift"}}}},
-                  {"none", Row::array()}};
+                    {{"verdict", "INDETERMINATE"}, {"warning", ""}, {"fault", "drift"}}}}};
   const std::string file =
-      "@all\n{{#rows|all verdict SAFE}}all{{/rows|all verdict SAFE}}{{#none|all verdict SAFE}} of "
-      "none{{/none|all "
-      "verdict SAFE}}\n"
       "@any\n{{#rows|any warning fault}}faults{{/rows|any warning fault}}{{#rows|any "
       "warning}}warnings{{/rows|any "
       "warning}}\n"
       "@count\n{{rows|count verdict SAFE}} of {{rows|count}}{{#rows|count verdict UNSAFE|over 0}}, some "
       "UNSAFE{{/rows|count verdict UNSAFE|over 0}}\n";
-  EXPECT_EQ(said_by(file, "all", facts), std::vector<std::string>{" of none"});
   EXPECT_EQ(said_by(file, "any", facts), std::vector<std::string>{"faults"});
   EXPECT_EQ(said_by(file, "count", facts), std::vector<std::string>{"1 of 2"});
 }

@@ -65,7 +65,7 @@ class SafetyReport : public launchsafe::testing::TemporaryFolder {
                           {"key", "peak_pressure_MPa"},
                           {"unit", "MPa"},
                           {"values", pressures}}};
-      for (const char* table : {"verdicts", "cases", "runs", "gap_shares"}) {
+      for (const char* table : {"verdicts", "cases", "runs", "causes"}) {
         const auto rows = std::exchange(results[table], nlohmann::ordered_json::array());
         for (const double pressure : pressures)
           for (auto row : rows) {

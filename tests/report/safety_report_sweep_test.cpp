@@ -9,9 +9,8 @@ void let_ignite(nlohmann::ordered_json& results) {
   auto& row = results["cases"][1];
   row["critical_gap_kind"] = "all-ignite";
   row["critical_gap_reads_as"] = row["critical_gap_with_bounds"] = "ignites without a gap";
-  for (const char* key : {"critical_gap_cm", "critical_gap_lower_cm", "largest_safe_gap_cm"})
-    row[key] = nullptr;
-  for (const char* key : {"critical_gap_upper_cm", "critical_gap_at_least_cm", "critical_gap_at_most_cm"})
+  row["largest_safe_gap_cm"] = nullptr;
+  for (const char* key : {"critical_gap_cm", "critical_gap_at_least_cm", "critical_gap_at_most_cm"})
     row[key] = 0.0;
   for (std::size_t i = results["verdicts"].size() / 2; i < results["verdicts"].size(); ++i)
     results["verdicts"][i]["verdict"] = "UNSAFE";

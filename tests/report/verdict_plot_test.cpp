@@ -8,11 +8,8 @@ namespace {
 /// Rows by hand: 0 and 0.01 cm do not ignite, 0.04 cm does; the critical gap is 0.03 cm, at least 0.02.
 Row tables() {
   const auto row = [](double gap, const char* verdict, double temperature) {
-    return Row{{"gap_cm", gap},
-               {"verdict", verdict},
-               {"temperature_max_K", temperature},
-               {"uncertainty_K", 30.0},
-               {"uncertainty_of_model_form_K", 10.0}};
+    return Row{
+        {"gap_cm", gap}, {"verdict", verdict}, {"temperature_max_K", temperature}, {"uncertainty_K", 30.0}};
   };
   Row ignited = row(0.04, "UNSAFE", 784.0);
   ignited["ignition_cause"] = "self-heating";
@@ -25,7 +22,8 @@ Row tables() {
                                  {"critical_gap_cm", 0.03},
                                  {"critical_gap_at_least_cm", 0.02},
                                  {"critical_gap_at_most_cm", 0.04},
-                                 {"critical_gap_with_bounds", "0.030 ± 0.010 cm"}}})}};
+                                 {"critical_gap_with_bounds", "0.030 ± 0.010 cm"},
+                                 {"largest_safe_gap_cm", 0.0}}})}};
 }
 
 /// The default scene begins at 300 K.
@@ -42,8 +40,8 @@ TEST(VerdictPlot, HasAColourForEachVerdictAndBarsThatEndWhereTheLaunchBegan) {
   const Series *safe = named(plot, "SAFE"), *open = named(plot, "INDETERMINATE");
   ASSERT_TRUE(safe && open);
   EXPECT_NE(safe->colour, open->colour);
-  EXPECT_EQ(safe->lower, std::vector{300.0}) << "310 K less 20 K would be colder than the launch began";
-  EXPECT_EQ(open->lower, std::vector{380.0}) << "the model form counts upwards alone";
+  EXPECT_EQ(safe->lower, std::vector{300.0}) << "310 K less 30 K would be colder than the launch began";
+  EXPECT_EQ(open->lower, std::vector{370.0});
   EXPECT_EQ(open->upper, std::vector{430.0});
   const Series* ignited = named(plot, "UNSAFE: ignites");
   ASSERT_TRUE(ignited);
@@ -76,8 +74,18 @@ TEST(VerdictPlot, IsNotGreenWhereSomethingIsAccepted) {
   const auto green = colour(tables(), "SAFE");
   ASSERT_TRUE(green);
   Row accepted = tables();
-  accepted["verdicts"][0]["accepted"] = "accepted: interface.wall = bonded";
+  accepted["cases"][0]["accepted"] = "calibre, because ...";
   EXPECT_NE(colour(accepted, "SAFE, as somebody accepts").value(), *green);
+}
+
+// A finite number is drawn whatever its kind: here ignition without a gap.
+TEST(VerdictPlot, DrawsTheCriticalGapWithoutBounds) {
+  Row rows = tables();
+  rows["cases"][0] = {{"critical_gap_kind", "all-ignite"}, {"critical_gap_cm", 0.0}};
+  const Plot plot = verdict_plot(rows, scene_of_300K());
+  ASSERT_EQ(plot.vertical_lines.size(), 1u);
+  EXPECT_EQ(plot.vertical_lines[0].at, 0.0);
+  EXPECT_TRUE(plot.vertical_bands.empty());
 }
 
 TEST(VerdictPlot, ABarWhoseEndIsNotKnownGoesOn) {

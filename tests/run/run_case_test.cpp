@@ -183,15 +183,11 @@ TEST(RunMechanics, TellsHowMuchOfTheWallYieldsAndTheHeatOfFrictionOverTheWork) {
   EXPECT_TRUE(std::isnan(MechanicsResult().friction_over_work()));
 }
 
-TEST(RunCase, HotterForWiderGapsAndTheSamplingErrorIsSmall) {
+TEST(RunCase, HotterForWiderGaps) {
   const CaseResult result = run_case(coarse_scene());
   ASSERT_EQ(result.gaps.size(), 6u);
   for (std::size_t i = 1; i < result.gaps.size(); ++i)
     EXPECT_GT(result.gaps[i].at_stations.temperature, result.gaps[i - 1].at_stations.temperature);
-  for (const GapResult& gap : result.gaps)
-    if (!gap.skin.ignition) {
-      EXPECT_LT(gap.sampling_error, 0.02) << gap.gap;
-    }  // K
 }
 
 /// What the plan leaves out must not matter: conduction moves the bulk of the charge by less than the

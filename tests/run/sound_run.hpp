@@ -41,10 +41,12 @@ inline MechanicsResult sound_run() {
   return run;
 }
 
-/// That there is one validity warning, and that it says `part`.
-inline void expect_one(const std::vector<std::string>& warnings, const std::string& part) {
-  ASSERT_EQ(warnings.size(), 1u) << (warnings.empty() ? "no validity warning" : warnings[1]);
-  EXPECT_NE(warnings[0].find(part), std::string::npos) << warnings[0];
+/// Expects one warning, of this name, whose text has `part`.
+inline void expect_one(const std::vector<Warning>& warnings, const std::string& name,
+                       const std::string& part) {
+  ASSERT_EQ(warnings.size(), 1u) << (warnings.empty() ? "no warning" : warnings[1].name);
+  EXPECT_EQ(warnings[0].name, name);
+  EXPECT_NE(warnings[0].text.find(part), std::string::npos) << warnings[0].text;
 }
 
 }  // namespace launchsafe::run::test_support

@@ -29,10 +29,10 @@ TEST(ValidityWarnings, ASoundRunHasNone) {
 TEST(ValidityWarnings, AMissingOrBrokenHistoryIsOne) {
   MechanicsResult run = sound_run();
   run.monitor.clear();
-  expect_one(validity_warnings(shipped_scene(), run), "monitor");
+  expect_one(validity_warnings(shipped_scene(), run), "energy", "monitor");
   run = sound_run();
   run.monitor[2].momentum = std::numeric_limits<double>::quiet_NaN();
-  expect_one(validity_warnings(shipped_scene(), run), "2");
+  expect_one(validity_warnings(shipped_scene(), run), "energy", "2");
 }
 
 /// A measured launch that is covered, or the word for what is not.
@@ -48,7 +48,8 @@ void expect_said(const std::function<void(scene::Load&)>& change, const std::str
   const auto warnings = validity_warnings(scene, sound_run());
   ASSERT_EQ(warnings.empty(), said.empty()) << name;
   if (said.empty()) return;
-  EXPECT_NE(warnings.front().find(said), std::string::npos) << name << ": " << warnings.front();
+  EXPECT_EQ(warnings.front().name, "load") << name;
+  EXPECT_NE(warnings.front().text.find(said), std::string::npos) << name << ": " << warnings.front().text;
 }
 
 TEST(ValidityWarnings, ALaunchThatIsNotSimulatedAsItIsStated) {
@@ -126,9 +127,10 @@ TEST(ValidityWarnings, AFaceOfTheChargeThatNobodyLooksAt) {
   EXPECT_TRUE(validity_warnings(scene, sound_run()).empty());
   scene.bodies.back().x_end -= 1e-8;  // 10 nm
   // Beside it the warning that a bottom so small would have to bear more.
-  const std::vector<std::string> warnings = validity_warnings(scene, sound_run());
+  const std::vector<Warning> warnings = validity_warnings(scene, sound_run());
   ASSERT_EQ(warnings.size(), 2u);
-  EXPECT_NE(warnings[0].find("\"ring\" ends 1e-05 mm"), std::string::npos) << warnings[0];
+  for (const Warning& each : warnings) EXPECT_EQ(each.name, "bottom");
+  EXPECT_NE(warnings[0].text.find("\"ring\" ends 1e-05 mm"), std::string::npos) << warnings[0].text;
   // More charge behind all of it is no face.
   scene.bodies.back().x_end = 0.6;
   scene::Body rear = scene.bodies.back();
@@ -153,7 +155,7 @@ TEST(ValidityWarnings, AChargeThatDoesNotBearWhatStaticsAsksOfIt) {
     for (double& pressure : run.trace.bottom_pressure) pressure *= share / 0.99;
     const auto warnings = validity_warnings(scene, run);
     ASSERT_EQ(warnings.empty(), std::string(said).empty()) << share;
-    if (!warnings.empty()) expect_one(warnings, said);
+    if (!warnings.empty()) expect_one(warnings, "bottom", said);
   }
   // Only the peak counts: a base that slides may open before.
   MechanicsResult late = sound_run();
@@ -164,7 +166,7 @@ TEST(ValidityWarnings, AChargeThatDoesNotBearWhatStaticsAsksOfIt) {
 TEST(ValidityWarnings, ATraceOfTooFewSamples) {
   MechanicsResult run = sound_run();
   run.trace.time = {0.0, 18e-3};
-  expect_one(validity_warnings(shipped_scene(), run), "2");
+  expect_one(validity_warnings(shipped_scene(), run), "cells", "2");
   run.trace.time.resize(9);
   EXPECT_TRUE(validity_warnings(shipped_scene(), run).empty());
 }
@@ -174,7 +176,7 @@ TEST(ValidityWarnings, ALoadThatRisesWhileSoundRunsThroughTheCharge) {
   scene::Scene scene = shipped_scene();
   scene.load.shape = scene::LoadShape::power_exponential;
   scene.load.peak_time = 0.5e-3;
-  expect_one(validity_warnings(scene, sound_run()), "192 µs");
+  expect_one(validity_warnings(scene, sound_run()), "cells", "192 µs");
   scene.load.peak_time = 1.5e-3;
   EXPECT_TRUE(validity_warnings(scene, sound_run()).empty());
 
@@ -184,9 +186,7 @@ TEST(ValidityWarnings, ALoadThatRisesWhileSoundRunsThroughTheCharge) {
     scene.load.curve_time = {0.0, 4e-3, 8e-3, 8.05e-3, 10e-3, 14e-3, 18e-3};
     scene.load.curve_pressure = {0.0, 0.5 * low, low, high, 496e6, 200e6, 50e6};
     const auto warnings = validity_warnings(scene, sound_run());
-    return std::any_of(warnings.begin(), warnings.end(), [](const std::string& warning) {
-      return warning.find("192 µs") != std::string::npos;
-    });
+    return std::ranges::find(warnings, "cells", &Warning::name) != warnings.end();
   };
   EXPECT_TRUE(warns_of_a_step(150e6, 450e6));
   EXPECT_FALSE(warns_of_a_step(200e6, 400e6));
@@ -197,24 +197,24 @@ TEST(ValidityWarnings, CracksThatNoContinuumLawHolds) {
   scene::Scene cracked = shipped_scene();
   cracked.numerics.cell_size = 2.5e-3;
   cracked.charge().strength.initial_crack_radius = run.monitor[1].largest_crack_radius = 10.5e-3;
-  expect_one(validity_warnings(cracked, run), "10.5");
+  expect_one(validity_warnings(cracked, run), "large-cracks", "10.5");
   scene::Scene fine = shipped_scene();
   fine.numerics.cell_size = 0.5e-3;
   fine.charge().strength.initial_crack_radius = run.monitor[1].largest_crack_radius = 3e-3;
-  expect_one(validity_warnings(fine, run), "6");
+  expect_one(validity_warnings(fine, run), "cells", "6");
   // Grown rather than given, it gives a warning where it worked: a twentieth of what viscosity took.
   fine.charge().strength.initial_crack_radius = 30e-6;
   run.monitor[2].energy.viscous = 3.5;
   run.monitor[2].energy.crack = 0.05 * 3.5;
   EXPECT_EQ(validity_warnings(fine, run).size(), 0u);
   run.monitor[2].energy.crack = 0.051 * 3.5;
-  expect_one(validity_warnings(fine, run), "6");
+  expect_one(validity_warnings(fine, run), "cells", "6");
   run.monitor[2].energy.crack = 0.0;
   scene::Scene thin = shipped_scene();
   thin.charge().strength.initial_crack_radius = 3e-3;
   thin.bodies[1].x_begin = thin.bodies[1].x_end - 2e-3;
   for (double& pressure : run.trace.bottom_pressure) pressure *= 2.0 / 560.0;  // of so little charge
-  expect_one(validity_warnings(thin, run), "charge");
+  expect_one(validity_warnings(thin, run), "large-cracks", "charge");
 }
 
 TEST(ValidityWarnings, FacesThatPassIntoEachOther) {
@@ -225,7 +225,7 @@ TEST(ValidityWarnings, FacesThatPassIntoEachOther) {
   run.interfaces[0].overlap = {0.0, 0.9e-3 * scene.numerics.cell_size};
   EXPECT_TRUE(validity_warnings(scene, run).empty());
   run.interfaces[0].overlap[0] = 26e-6;
-  expect_one(validity_warnings(scene, run), "\"base\"");
+  expect_one(validity_warnings(scene, run), "cells", "\"base\"");
 }
 
 /// As they do without friction between their faces: by 4.4 mm in 18 ms.
@@ -234,7 +234,7 @@ TEST(ValidityWarnings, CracksThatRunAway) {
   run.monitor[2].largest_crack_radius = 4.43e-3;
   run.monitor[2].energy.viscous = 3.4;
   run.monitor[2].energy.crack = 2.5;
-  expect_one(validity_warnings(shipped_scene(), run), "4.4 mm");
+  expect_one(validity_warnings(shipped_scene(), run), "large-cracks", "4.4 mm");
   run.monitor[2].largest_crack_radius = 0.4e-3;
   EXPECT_TRUE(validity_warnings(shipped_scene(), run).empty());
   // In the corner beside the wall, on cells of 0.3125 mm, with friction.
@@ -248,21 +248,67 @@ TEST(ValidityWarnings, ABulkAboveIgnitionWhoseReactionIsLeftOut) {
   MechanicsResult run = sound_run();
   run.trace.friction[0].back() = 230.0 * 1717.0 * 1780.0;  // J/m3 that heat by 230 K
   scene.physics.bulk_reaction = scene::Switch::off;
-  expect_one(validity_warnings(scene, run), "530 K");
+  expect_one(validity_warnings(scene, run), "bulk-reaction", "530 K");
   scene.physics.bulk_reaction = scene::Switch::on;
   EXPECT_TRUE(validity_warnings(scene, run).empty());
 }
 
-/// In a corner the strain grows as the particles come closer, on 1.25 mm of the shipped shell to 3.12 %.
-// A third of the charge of 560 mm.
+/// A third of the charge of 560 mm.
 TEST(ValidityWarnings, AShellThatYields) {
   MechanicsResult run = sound_run();
   run.yielded_wall = 0.186;
   EXPECT_TRUE(validity_warnings(shipped_scene(), run).empty());
   run.yielded_wall = 0.187;
-  const std::vector<std::string> warnings = validity_warnings(shipped_scene(), run);
-  expect_one(warnings, "187 mm");
-  EXPECT_TRUE(warnings.empty() || warnings.front().starts_with("shell-yields:"));
+  expect_one(validity_warnings(shipped_scene(), run), "shell-yields", "187 mm");
+}
+
+/// One particle step in a thousand, whichever the limiter.
+TEST(ValidityWarnings, LimitersThatActedOften) {
+  MechanicsResult run = sound_run();
+  run.particles = run.steps = 1000;
+  for (const Limiter& each : limiters) {
+    run.limiters = {};
+    run.limiters.*each.member = 1000;
+    EXPECT_TRUE(validity_warnings(shipped_scene(), run).empty()) << each.name;
+    run.limiters.*each.member = 1001;
+    expect_one(validity_warnings(shipped_scene(), run), "limiters", "1001");
+  }
+}
+
+std::vector<std::string> names_of(const std::vector<Warning>& warnings) {
+  std::vector<std::string> names;
+  for (const Warning& each : warnings) names.push_back(each.name);
+  return names;
+}
+
+/// The shipped launch has 760 m/s after 5.36 m, 35 calibres. Both change in proportion to the peak pressure;
+/// after 12 ms it has 519 m/s and 1.18 m.
+TEST(LaunchWarnings, AProjectileThatIsSlowOrFastOrTravelsLittle) {
+  const auto names = [](double peak, double exit) {
+    scene::Scene scene = shipped_scene();
+    scene.load.peak = peak;
+    scene.load.muzzle_exit = exit;
+    return names_of(launch_warnings(scene));
+  };
+  using Names = std::vector<std::string>;
+  EXPECT_EQ(names(496e6, 18e-3), Names{});
+  EXPECT_EQ(names(180e6, 18e-3), Names{"low-velocity"});
+  EXPECT_EQ(names(800e6, 18e-3), Names{"high-velocity"});
+  EXPECT_EQ(names(496e6, 12e-3), Names{"short-travel"});
+  EXPECT_EQ(names(0.0, 18e-3), (Names{"low-velocity", "short-travel"}));
+}
+
+TEST(WarningKinds, HaveNamesOfTheirOwnAndSomeAreAcceptable) {
+  std::vector<std::string> acceptable;
+  for (const WarningKind& kind : warning_kinds()) {
+    EXPECT_EQ(std::ranges::count(warning_kinds(), kind.name, &WarningKind::name), 1) << kind.name;
+    EXPECT_EQ(is_acceptable(kind.name), kind.acceptable) << kind.name;
+    if (kind.acceptable) acceptable.push_back(kind.name);
+  }
+  EXPECT_LE(warning_kinds().size(), 14u);
+  EXPECT_EQ(acceptable, (std::vector<std::string>{"low-velocity", "high-velocity", "short-travel",
+                                                  "shell-yields", "large-cracks"}));
+  EXPECT_FALSE(is_acceptable("no such name"));
 }
 
 }  // namespace

@@ -50,6 +50,14 @@ TEST(Quantity, ATemperatureMayStandOnTheScaleOfCelsiusOrFahrenheit) {
   EXPECT_EQ(*parse_range("20 to 27 \u00b0C", Dimension::temperature), (std::vector<double>{293.15, 300.15}));
 }
 
+TEST(Quantity, AShareIsReadAndWrittenInPercent) {
+  EXPECT_EQ(*parse_quantity("4 %", Dimension::share), 0.04);
+  EXPECT_EQ(*parse_quantity("12.5%", Dimension::share), 0.125);
+  EXPECT_FALSE(parse_quantity("0.04", Dimension::share));
+  EXPECT_EQ(format_quantity(0.04, Dimension::share), "4 %");
+  EXPECT_EQ(format_quantity(5e-4, Dimension::share), "0.05 %");
+}
+
 TEST(Quantity, ADifferenceOfTemperaturesIsInKelvinOnly) {
   EXPECT_EQ(*parse_quantity("5 K", Dimension::temperature_difference), 5.0);
   for (const char* text : {"5 \u00b0C", "5 degC", "5 C", "5 degF"}) {

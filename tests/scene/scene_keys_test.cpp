@@ -56,6 +56,14 @@ TEST(SceneKeys, EveryKeyReadsWhatItSets) {
   }
 }
 
+TEST(SceneKeys, ActOnTheMechanicsWhereTheySayNothing) {
+  EXPECT_EQ(acts_on("charge.conductivity"), ActsOn::conduction);
+  EXPECT_EQ(acts_on("gap.exchange_time"), ActsOn::surface);
+  EXPECT_EQ(acts_on("kinetics.frequency"), ActsOn::chemistry);
+  EXPECT_EQ(acts_on("load.peak"), ActsOn::mechanics);
+  EXPECT_EQ(acts_on("body.wall.x"), ActsOn::mechanics);
+}
+
 TEST(SceneKeys, JwlConstantsKeepThePressureOfTheUnloadedChargeZero) {
   const auto changed = with_written_key(small_file(), "charge.jwl.omega", "0.5", {});
   ASSERT_TRUE(changed);

@@ -155,6 +155,23 @@ TEST(TomlReader, ParsesValuesAsWrittenOnACommandLine) {
   EXPECT_FALSE(parse_value("yes", keys[2], {}));
 }
 
+TEST(TomlReader, WritesAShareAsItReadsIt) {
+  KeyDescription key;
+  key.dimension = Dimension::share;
+  EXPECT_EQ(exact_toml(key, 0.04), "\"4 %\"");
+  EXPECT_EQ(std::get<double>(*parse_value("4 %", key, {})), 0.04);
+  EXPECT_NE(allowed_text(key).find("\"5 %\""), std::string::npos);
+}
+
+TEST(TomlReader, AReasonHasTwoWordsAndEightLetters) {
+  const auto is_refused = [](const std::string& text) {
+    return !caught([&] { return check_reason(text, {"study.toml", 3, 1}, "accept.steel"), true; });
+  };
+  for (const char* text : {"", "...", "x", "because", "12345678 9012345", "accordingly", "a b c d e f g"})
+    EXPECT_TRUE(is_refused(text)) << text;
+  for (const char* text : {"our trials agree", "změřený přetlak"}) EXPECT_FALSE(is_refused(text)) << text;
+}
+
 TEST(TomlReader, SyntaxErrorsNameTheirPlace) {
   const auto table = parse_toml("a = 1\nb = = 2\n", "thing.toml");
   ASSERT_FALSE(table);

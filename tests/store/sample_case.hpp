@@ -119,7 +119,6 @@ inline run::GapResult sample_gap(double thickness) {
   gap.skin.temperature = {300, 300, 310, 311, 320, not_a_number};
   gap.at_points = {523.3, 0.0179, 0};
   gap.at_stations = {530.5, 0.018, 1};
-  gap.sampling_error = 0.02;
   gap.air = {32700.0, 925.0};
   return gap;
 }

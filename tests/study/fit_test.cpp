@@ -1,4 +1,4 @@
-#include "launchsafe/study/verdict.hpp"
+#include "launchsafe/study/rows.hpp"
 
 #include <gtest/gtest.h>
 

@@ -52,14 +52,17 @@ TEST(RunCases, EveryCaseIsJudgedOnce) {
 /// those that do not have other ones.
 TEST(RunCases, CasesShareARunWhereTheirMechanicsAreEqualAndNowhereElse) {
   std::size_t tried = 0, shared = 0;
+  // Without constants, of which a study that gives verdicts varies none.
+  const std::string text = critical_text + "constants = \"none\"\ngaps = \"0.1 mm\"\n";
+  const scene::Scene own = study_of(text).scene.scene;
   for (const auto& key : scene::scene_keys()) {
     if (key.kind != scene::KeyKind::number || key.name == "load.peak") continue;
-    const double usual = std::get<double>(key.get(shipped_calibration().scene));
+    const double usual = std::get<double>(key.get(own));
     const double other = key.dimension == scene::Dimension::count ? 1.0 : 0.01 * usual;
-    auto study = parse_here(critical_kind + "gaps = \"0.1 mm\"\n" +
-                            vary({{key.name, fmt::format("[\"{}\", \"{}\"]", scene::format_value(key, usual),
-                                                         scene::format_value(key, usual + other))},
-                                  {"peak_pressure", "450, 496 MPa"}}));
+    auto study =
+        parse_here(text + vary({{key.name, fmt::format("[\"{}\", \"{}\"]", scene::format_value(key, usual),
+                                                       scene::format_value(key, usual + other))},
+                                {"peak_pressure", "450, 496 MPa"}}));
     if (!study) continue;  // no other value of it stands beside the rest of the scene
     study->study.in_detail = false;
     ++tried;
@@ -78,16 +81,31 @@ TEST(RunCases, CasesShareARunWhereTheirMechanicsAreEqualAndNowhereElse) {
   EXPECT_GE(shared, 20u);
 }
 
-TEST(RunCases, RunsUnderARaisedLoadBelongToTheirCase) {
+TEST(RunCases, LaunchesThatBoundsRestOnBelongToTheirCase) {
   const StudyFile study = lean_study_of(critical_kind + vary({{"peak_pressure", "450, 496 MPa"}}));
   const std::vector<CaseRuns> cases = case_runs(study, 1);
   ASSERT_EQ(cases.size(), 2u);
   for (const CaseRuns& each : cases) {
-    ASSERT_EQ(each.runs.size(), 2u);
-    const CaseRun own = each.runs[0].make(), raised = each.runs[1].make();
-    EXPECT_NE(own.hash, raised.hash);
-    EXPECT_NEAR(raised.scene.load.peak, 1.04 * own.scene.load.peak, 1.0);
+    EXPECT_EQ(of_each(each.runs, &PlannedRun::part), (std::vector{Part::own, Part::raised, Part::companion}));
+    const scene::Scene own = each.runs[0].make().scene;
+    EXPECT_NEAR(each.runs[1].make().scene.load.peak, 1.04 * own.load.peak, 1.0);
+    const scene::Numerics coarse = each.runs[2].make().scene.numerics;
+    EXPECT_EQ(coarse.cell_size, 2.0 * own.numerics.cell_size);
+    EXPECT_EQ(coarse.largest_cell, 2.0 * own.numerics.largest_cell);
   }
+}
+
+TEST(RunCases, OtherCellsThanThoseOfTheConstantsAreLaunchedOnTheseToo) {
+  const StudyFile study = lean_study_of(critical_kind + "[set]\nnumerics.cell_size = \"1 mm\"\n");
+  const std::vector<CaseRuns> cases = case_runs(study, 1);
+  EXPECT_EQ(of_each(cases.at(0).runs, &PlannedRun::part),
+            (std::vector{Part::own, Part::raised, Part::companion, Part::cells_of_constants}));
+  EXPECT_EQ(cases[0].runs[3].make().scene.numerics.cell_size, 1.25e-3);
+}
+
+TEST(RunCases, StatedNumericsAndASpreadOfZeroTakeNoLaunch) {
+  const StudyFile study = lean_study_of(critical_text);
+  EXPECT_EQ(case_runs(study, 1).at(0).runs.size(), 1u);
 }
 
 TEST(RunCases, ACaseOfAnotherShardIsNotRun) {

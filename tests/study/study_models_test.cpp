@@ -1,7 +1,4 @@
 // Launches under other constants than a study's own, on a launch in closed form.
-#include "launchsafe/kinds/critical_gap.hpp"
-#include "launchsafe/scene/constants.hpp"
-#include "launchsafe/study/case_answer.hpp"
 #include "study/synthetic_launch.hpp"
 
 #include <cmath>
@@ -10,7 +7,6 @@
 namespace {
 
 using namespace launchsafe;
-using namespace launchsafe::kinds;
 using namespace launchsafe::study;
 
 /// Steepness of the load by the constants `hot`, whose launch heats more by friction.
@@ -29,21 +25,15 @@ run::MechanicsResult broken_launch(const scene::Scene& scene, const run::RunOpti
   return result;
 }
 
-const GapShare* share_of_models(const CriticalGap& critical) {
-  const auto found = std::ranges::find(critical.shares, ShareKind::model_form, &GapShare::kind);
-  return found == critical.shares.end() ? nullptr : &*found;
-}
-
-/// The critical gap that a search found, accepted or not.
-GapOrBound found_in(const CriticalGap& critical) {
-  return std::isnan(critical.indicative) ? gap_or_bound(critical) : critical.indicative;
+const CauseShare* share_of_models(const CaseRow& row) {
+  const auto found = std::ranges::find(row.causes, Cause::models, &CauseShare::cause);
+  return found == row.causes.end() ? nullptr : &*found;
 }
 
 class StudyModels : public FolderWithScene {
  protected:
   void SetUp() override {
     FolderWithScene::SetUp();
-    std::filesystem::remove_all(folder_ / "results");
     write("hot", "load.steepness", hot_steepness);
     write("late", "kinetics.ignition_temperature", 540.0);
   }
@@ -56,11 +46,7 @@ class StudyModels : public FolderWithScene {
   }
 
   scene::Expected<StudyFile> parsed(const std::string& keys) const {
-    const std::string text = critical_text +
-                             "numerical_uncertainty = { value = \"1 K\", because = \"for a test\" }\n"
-                             "confirm = false\ngaps = \"0.01 cm\"\n" +
-                             keys;
-    return parse_study(text, folder_ / "study.toml");
+    return kinds::parse_study(critical_text + "gaps = \"0.01 cm\"\n" + keys, folder_ / "study.toml");
   }
   StudyFile study(const std::string& keys) const {
     const auto study = parsed(keys);
@@ -68,99 +54,70 @@ class StudyModels : public FolderWithScene {
     return study ? *study : StudyFile{};
   }
 
-  CriticalGapResult run(const StudyFile& study, store::CaseStore* store = nullptr) const {
+  CaseRow row_of(const std::string& keys, bool breaks_off = false, bool throws = false) const {
     StudyOptions options = synthetic_options();
-    options.runners.mechanics = launch_by_steepness;
-    options.store = store;
-    return run_critical_gap(study, options);
+    options.runners.mechanics = [=](const scene::Scene& scene, const run::RunOptions& of_run) {
+      return breaks_off ? broken_launch(scene, of_run, throws) : launch_by_steepness(scene, of_run);
+    };
+    return rows_of(study(keys), options).at(0);
   }
 };
 
-TEST_F(StudyModels, MoveTheCriticalGapToTheSmallestAndTheLargestOfAll) {
-  const CaseAnswer alone = run(study("")).answers.at(0);
-  const CaseAnswer answer = run(study("models = \"hot.toml, late.toml\"\n")).answers.at(0);
-  ASSERT_EQ(answer.critical.kind, CriticalGapKind::value) << text_of(answer.critical.reason);
-  ASSERT_EQ(answer.models.size(), 2u);
-  const ModelGap &hot = answer.models[0], &late = answer.models[1];
-  EXPECT_EQ(hot.name, "hot");
-  EXPECT_EQ(late.name, "late");
-  EXPECT_LT(hot.critical_gap, answer.critical.lower - 1e-5);
-  EXPECT_GT(late.critical_gap, answer.critical.upper + 1e-5);
-  const GapShare* share = share_of_models(answer.critical);
+TEST_F(StudyModels, MoveTheBoundsToTheSmallestAndTheLargestOfAll) {
+  const CaseRow alone = row_of("");
+  const CaseRow row = row_of("models = \"hot.toml, late.toml\"\n");
+  ASSERT_EQ(row.critical.kind, CriticalGapKind::value);
+  EXPECT_EQ(row.critical.value, alone.critical.value);
+  EXPECT_EQ(of_each(row.models, &ModelGap::name), (std::vector<std::string>{"hot", "late"}));
+  const double shorter = row.critical.value - row.models[0].critical_gap,
+               longer = row.models[1].critical_gap - row.critical.value;
+  EXPECT_GT(shorter, 1e-5);
+  EXPECT_GT(longer, 1e-5);
+  const CauseShare* share = share_of_models(row);
   ASSERT_NE(share, nullptr);
-  EXPECT_EQ(share->raised, hot.critical_gap);
-  EXPECT_EQ(share->lowered, late.critical_gap);
-  EXPECT_NEAR(alone.critical.bounds.at_least - answer.critical.bounds.at_least,
-              answer.critical.lower - hot.critical_gap, 1e-9);
-  EXPECT_NEAR(answer.critical.bounds.at_most - alone.critical.bounds.at_most,
-              late.critical_gap - answer.critical.upper, 1e-9);
-  EXPECT_GT(answer.verdicts.at(0).uncertainty.model_form, 1.0);
+  EXPECT_EQ(share->shorter, shorter);
+  EXPECT_EQ(share->longer, longer);
+  EXPECT_GT(row.bounds.at_least, 0.0);
+  EXPECT_NEAR(alone.bounds.at_least - row.bounds.at_least, shorter, 1e-9);
+  EXPECT_NEAR(row.bounds.at_most - alone.bounds.at_most, longer, 1e-9);
 }
 
 TEST_F(StudyModels, AreNoCauseWhereTheStudyNamesNone) {
-  const CriticalGapResult result = run(study(""));
-  EXPECT_TRUE(result.answers.at(0).models.empty());
-  EXPECT_EQ(share_of_models(result.answers.at(0).critical), nullptr);
-  EXPECT_EQ(result.answers.at(0).verdicts.at(0).uncertainty.model_form, 0.0);
+  const CaseRow row = row_of("");
+  EXPECT_TRUE(row.models.empty());
+  EXPECT_EQ(share_of_models(row), nullptr);
 }
 
+/// The critical gap of a model is that of a study that has it for its constants.
 TEST_F(StudyModels, AreSearchedWithTheirOwnSkin) {
-  const CaseAnswer answer = run(study("models = \"late.toml\"\n")).answers.at(0);
-  const CaseAnswer stated = run(study("[set]\nkinetics.ignition_temperature = \"540 K\"\n")).answers.at(0);
-  EXPECT_NEAR(answer.models.at(0).critical_gap, found_in(stated.critical), 2e-6);
+  const CaseRow other = row_of("models = \"late.toml\"\n"), own = row_of("constants = \"late.toml\"\n");
+  EXPECT_NEAR(other.models.at(0).critical_gap, own.critical.value, gap_accuracy);
 }
 
 /// The case's own launch is sound, but nothing says how small its critical gap may be.
 TEST_F(StudyModels, OneThatFailsLeavesNoBoundAndIsNamed) {
-  for (const bool in_detail : {true, false})
-    for (const bool throws : {true, false}) {
-      StudyFile file = study("models = \"hot.toml, late.toml\"\n");
-      file.study.in_detail = in_detail;
-      StudyOptions options = synthetic_options();
-      options.runners.mechanics = [throws](const scene::Scene& scene, const run::RunOptions& of_run) {
-        return broken_launch(scene, of_run, throws);
-      };
-      const CaseAnswer answer = run_critical_gap(file, options).answers.at(0);
-      EXPECT_TRUE(answer.completed());
-      EXPECT_EQ(answer.critical.kind, CriticalGapKind::value);
-      EXPECT_TRUE(std::isnan(answer.critical.bounds.at_least));
-      EXPECT_TRUE(std::isnan(answer.critical.bounds.at_most));
-      EXPECT_TRUE(std::isfinite(answer.models.at(1).critical_gap));
-      const GapVerdict& row = answer.verdicts.at(0);
-      EXPECT_EQ(row.judgement.verdict, Verdict::indeterminate);
-      EXPECT_NE(reason_text(row).find("constants hot failed"), std::string::npos) << reason_text(row);
-      EXPECT_NE(reason_text(row).find("energy drift"), std::string::npos) << reason_text(row);
-    }
+  for (const bool throws : {true, false}) {
+    const CaseRow row = row_of("models = \"hot.toml, late.toml\"\n", true, throws);
+    EXPECT_TRUE(row.completed());
+    EXPECT_EQ(row.critical.kind, CriticalGapKind::value);
+    EXPECT_TRUE(std::isnan(row.bounds.at_least) && std::isnan(row.bounds.at_most));
+    EXPECT_TRUE(std::isnan(row.models.at(0).critical_gap));
+    EXPECT_TRUE(std::isfinite(row.models.at(1).critical_gap));
+    EXPECT_EQ(row.gaps.at(0).judgement.code, ReasonCode::failed);
+    EXPECT_NE(row.incomplete.find("hot"), std::string::npos) << row.incomplete;
+    EXPECT_NE(row.incomplete.find("energy drift"), std::string::npos) << row.incomplete;
+  }
 }
 
 TEST_F(StudyModels, CasesThatShareTheirMechanicsShareTheirModels) {
-  const StudyFile file = study("models = \"hot.toml\"\n" + vary({{"gap.exchange_time", "0.28, 0.3 ms"}}));
-  const std::vector<CaseRuns> runs = case_runs(file, 1);
-  ASSERT_EQ(runs.size(), 1u);
-  EXPECT_EQ(runs[0].members.size(), 2u);
-  ASSERT_EQ(runs[0].runs.size(), 2u);
-  EXPECT_EQ(runs[0].runs[0].model, "");
-  EXPECT_EQ(runs[0].runs[1].model, "hot");
-  EXPECT_EQ(runs[0].runs[1].make().scene.load.steepness, hot_steepness);
-}
-
-/// The launch is the same under both, and stored; the answer is another one.
-TEST_F(StudyModels, OfOtherValuesAreAnotherAnswer) {
-  auto store = store::CaseStore::open(folder_ / "results");
-  ASSERT_TRUE(store);
-  const auto answered = [&] {
-    StudyFile file = study("models = \"late.toml\"\n");
-    file.study.in_detail = false;
-    return run(file, store->get());
-  };
-  const GapOrBound first = answered().answers.at(0).models.at(0).critical_gap;
-  const CriticalGapResult again = answered();
-  EXPECT_EQ(again.timing.runs, 0u);
-  EXPECT_EQ(again.answers.at(0).models.at(0).critical_gap, first);
-  write("late", "kinetics.ignition_temperature", 545.0);
-  const CriticalGapResult later = answered();
-  EXPECT_EQ(later.timing.runs, 0u);
-  EXPECT_GT(later.answers.at(0).models.at(0).critical_gap, first);
+  const StudyFile file =
+      study("models = \"hot.toml\"\n" + vary({{"kinetics.heat_of_reaction", "5.8, 5.9 MJ/kg"}}));
+  const std::vector<CaseRuns> cases = case_runs(file, 1);
+  ASSERT_EQ(cases.size(), 1u);
+  EXPECT_EQ(cases[0].members.size(), 2u);
+  EXPECT_EQ(of_each(cases[0].runs, &PlannedRun::part), (std::vector{Part::own, Part::model}));
+  EXPECT_EQ(cases[0].runs[1].name, "hot");
+  EXPECT_EQ(cases[0].runs[1].make().scene.load.steepness, hot_steepness);
 }
 
 TEST_F(StudyModels, FaultsNameTheKey) {

@@ -3,8 +3,7 @@
 
 #include "launchsafe/kinds/kind.hpp"
 #include "launchsafe/run/run_case.hpp"
-#include "launchsafe/study/run_cases.hpp"
-#include "launchsafe/study/study_file.hpp"
+#include "launchsafe/study/case_rows.hpp"
 
 #include <gtest/gtest.h>
 
@@ -61,21 +60,11 @@ inline StudyFile lean_study_of(const std::string& text) {
   return study;
 }
 
-/// The study with a case otherwise.
-template <class Change>
-void change_case(StudyFile& study, std::size_t index, Change change) {
-  StudyCase changed = study.cases[index];
-  change(changed);
-  study.cases.replace(index, std::move(changed));
-}
-
-/// What studies of the synthetic launch state, so that its computation alone decides.
-inline const std::string synthetic_statements =
-    "fit_uncertainty = { value = \"1 K\", because = \"for a test\" }\ninput_uncertainty = { value = \"1 K\", "
-    "because = \"for a test\" }\n";
-
 inline const std::string critical_kind = "kind = \"critical-gap\"\nscene = \"scene_155mm.toml\"\n";
-inline const std::string critical_text = critical_kind + synthetic_statements;
+/// A study whose cases take no launch beside their own.
+inline const std::string critical_text = critical_kind +
+                                         "numerics = { value = \"1 K\", because = \"for a test\" }\n"
+                                         "uncertainty.peak_pressure = \"0 %\"\n";
 
 /// The bottom under a smooth load: pressure in proportion to the peak, as a charge bears that slides,
 /// friction energy that grows with t^3, highest at the second station in the end.
@@ -105,8 +94,10 @@ inline trace::BottomTrace synthetic_trace(double peak, double friction) {
   return trace;
 }
 
-/// Friction energy (J/m3, before localisation) that heats by `kelvin` at a localisation of 1700.
-inline double friction_for(double kelvin) { return kelvin * 1717.0 * 1780.0 / 1700.0; }
+/// Friction energy (J/m3, before localisation) that heats by `kelvin` under the shipped constants.
+inline double friction_for(double kelvin) {
+  return kelvin * 1717.0 * 1780.0 / scene::shipped_constants().front()->scene.surface.localisation;
+}
 
 inline run::MechanicsResult synthetic_mechanics(const scene::Scene& scene, double kelvin = 116.1) {
   run::MechanicsResult result;
@@ -152,13 +143,9 @@ inline Runners synthetic_runners(double kelvin = 116.1) {
           }};
 }
 
-/// The constants that the synthetic launch is made for, on the hot side of the calibrated ones.
-inline const std::string synthetic_constants =
-    "[set]\nfriction.closure = \"total strain rate\"\nfriction.localisation = 1700\ngap.exchange_time = "
-    "\"0.28 ms\"\n"
-    "kinetics.ignition_temperature = \"519 K\"\n";
-/// With true inertia on a lattice of 2.5 mm whose cells do not grow, which needs no settings that tell what
-/// these change.
+/// Head of the table of what a study sets. The synthetic launch is made for the shipped constants.
+inline const std::string synthetic_constants = "[set]\n";
+/// With true inertia on a lattice of 2.5 mm whose cells do not grow, so that a study may vary each.
 inline const std::string constants_on_even_lattice =
     synthetic_constants +
     "numerics.cell_size = \"2.5 mm\"\nnumerics.growth_x = 1\nnumerics.growth_r = 1\n"
@@ -171,12 +158,12 @@ inline StudyOptions synthetic_options(int jobs = 1) {
   return options;
 }
 
-inline StudyOptions squared_pressure_options() {
-  StudyOptions options = synthetic_options();
-  options.runners.mechanics = [](const scene::Scene& scene, const run::RunOptions&) {
-    return squared_pressure_mechanics(scene);
-  };
-  return options;
+/// The rows of all cases of a study.
+inline std::vector<CaseRow> rows_of(const StudyFile& study,
+                                    const StudyOptions& options = synthetic_options()) {
+  Timing timing;
+  ProgressTracker tracker({});
+  return draw_rows(study, options, timing, tracker);
 }
 
 }  // namespace launchsafe::study

@@ -11,7 +11,8 @@
 namespace {
 
 using namespace launchsafe;
-using surface::follow_after_launch, surface::runaway_temperature, surface::SkinModel, surface::SkinResolution;
+using surface::follow_after_launch, surface::ignition_after_launch, surface::runaway_temperature,
+    surface::SkinModel, surface::SkinResolution;
 
 constexpr double charge = 302.0, hot_charge = 416.0;  // K; hot: by the friction of a launch
 constexpr double hour = 3600.0;                       // s
@@ -41,7 +42,7 @@ SkinModel rdx() {
   return model;
 }
 
-SkinModel inert() {
+SkinModel without_kinetics() {
   SkinModel model = composition_b();
   model.kinetics.frequency = 0.0;
   return model;
@@ -66,8 +67,8 @@ double exact_surface(const SkinModel& model, double skin, double time) {
 }
 
 double surface_error(double time, SkinResolution resolution) {
-  return follow_after_launch(inert(), 500.0, charge, time, resolution).temperature -
-         exact_surface(inert(), 500.0, time);
+  return follow_after_launch(without_kinetics(), 500.0, charge, time, resolution).temperature -
+         exact_surface(without_kinetics(), 500.0, time);
 }
 
 TEST(AfterLaunch, ConductsAsASlabOnAHalfSpace) {
@@ -79,10 +80,10 @@ TEST(AfterLaunch, ConductsAsASlabOnAHalfSpace) {
 }
 
 TEST(AfterLaunch, StopsWhereItHasCooledByHalf) {
-  const auto after = follow_after_launch(inert(), 500.0, charge);
+  const auto after = follow_after_launch(without_kinetics(), 500.0, charge);
   EXPECT_FALSE(after.ignition_time);
   EXPECT_LT(after.temperature, 401.0);
-  EXPECT_NEAR(after.temperature, exact_surface(inert(), 500.0, after.time), 0.3);
+  EXPECT_NEAR(after.temperature, exact_surface(without_kinetics(), 500.0, after.time), 0.3);
 }
 
 TEST(AfterLaunch, IsOfSecondOrderInTheSpacing) {
@@ -187,6 +188,27 @@ TEST(AfterLaunch, IgnitesAtOnceAboveT1) {
   EXPECT_EQ(ignition_time(model, 600.0, charge), 0.0);
   EXPECT_NEAR(runaway_temperature(model, charge), 526.784, 0.01);
   EXPECT_EQ(runaway_temperature(model, 530.0), 526.784);
+}
+
+/// s; NaN where it cools. Of a launch that ended with these temperatures (K) of its station and of a hotter
+/// observation point, which does not count.
+double ignition_after(double station, double point, std::optional<surface::Ignition> ignition = {}) {
+  trace::BottomTrace trace;
+  trace.stations = {{"G1", 0.6775, 0.0625, 0.0, true}, {"S1", 0.6775, 0.06, 0.01, false}};
+  surface::SkinHistory history;
+  history.time = {0.0, 18e-3};
+  history.temperature = {300.0, 300.0, point, station};
+  history.ignition = ignition;
+  return ignition_after_launch(composition_b(), history, trace, charge).value_or(math::not_a_number);
+}
+
+TEST(AfterLaunch, FollowsTheHottestStationFromTheEndOfALaunch) {
+  const double limit = runaway_temperature(composition_b(), charge);
+  EXPECT_EQ(ignition_after(limit + 0.1, 600.0), ignition_time(composition_b(), limit + 0.1, charge));
+  EXPECT_TRUE(std::isfinite(ignition_after(limit + 0.1, 600.0)));
+  EXPECT_TRUE(std::isnan(ignition_after(limit - 0.1, 600.0)));
+  EXPECT_TRUE(std::isnan(ignition_after(450.0, 600.0)));
+  EXPECT_TRUE(std::isnan(ignition_after(limit + 0.1, 600.0, surface::Ignition{17.7e-3, 1})));
 }
 
 TEST(AfterLaunch, TakesNoDoubtForCooling) {

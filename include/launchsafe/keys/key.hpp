@@ -1,9 +1,9 @@
-// A key of an input file as data: name, dimension, allowed and plausible range, standing, a sentence, and the
-// member of a struct that it fills. What declares such a struct lists its keys beside it; reading,
-// documenting, sweeping and storing go through the list.
+// A key of an input file as data: name, dimension, allowed range, standing, a sentence, and the member of a
+// struct that it fills. What declares such a struct lists its keys beside it; reading, documenting, sweeping
+// and storing go through the list.
 #pragma once
 
-#include "launchsafe/keys/role.hpp"
+#include "launchsafe/keys/acts_on.hpp"
 
 #include <algorithm>
 #include <concepts>
@@ -11,10 +11,18 @@
 #include <functional>
 #include <initializer_list>
 #include <limits>
+#include <optional>
+#include <string>
 #include <string_view>
 #include <type_traits>
+#include <utility>
+#include <variant>
+#include <vector>
 
 namespace launchsafe::keys {
+
+/// The value of any key: number; flag; word, words ("a, b") or text; list or range.
+using Value = std::variant<double, bool, std::string, std::vector<double>>;
 
 /// What a number measures. `number` is dimensionless, `count` a whole dimensionless number. A `temperature`
 /// is one on a scale, which may be that of Celsius; a `temperature_difference`, such as an uncertainty, is in
@@ -34,8 +42,8 @@ enum class Dimension {
   specific_heat,
   conductivity,
   toughness,
+  share,  ///< written in percent
   // Of results alone.
-  share,
   mass,
   volume,
   energy,
@@ -73,15 +81,6 @@ inline Limits above_to(double lowest, double highest) {
   return {.lowest = lowest, .highest = highest, .lowest_allowed = false};
 }
 
-/// What a key is expected to hold: a value that is allowed but not plausible makes every verdict that rests
-/// on it indeterminate, with a validity warning (scene/read_scene.hpp).
-struct Plausible {
-  Limits limits = {};    ///< SI; of a list those of every number, of a range those of its width
-  bool or_zero = false;  ///< 0 too, where it stands for "none"
-  std::vector<std::string> words = {};  ///< of a word, or of a flag ("true"); empty: every one
-  std::string because = {};             ///< a clause: why; where all is plausible, why that is
-};
-
 /// All there is to say about a key, apart from where its value goes.
 struct KeyDescription {
   std::string name = {};  ///< dotted, such as "charge.crack_radius"
@@ -97,9 +96,7 @@ struct KeyDescription {
   bool required = false;                    ///< no default: the user must say
   std::string usual = {};                   ///< the default in words, where it follows from other keys
   std::vector<std::string> overrides = {};  ///< keys whose earlier value a new one of this takes back
-  Plausible plausible = {};
-  std::optional<Role> stated_role = {};  ///< none: it changes everything
-  Role role() const { return stated_role.value_or(Role{}); }
+  ActsOn acts_on = ActsOn::mechanics;
 };
 
 /// A described key bound to a struct.
@@ -331,15 +328,15 @@ auto joined(std::initializer_list<std::vector<Described<Owner>>> lists) {
   return all;
 }
 
-/// The same keys, in this role where they have none of their own.
+/// The same keys; those that say nothing of it act on that part of the computation.
 template <class Owner>
-std::vector<Key<Owner>> in_role(const Role& role, std::vector<Key<Owner>> keys) {
+std::vector<Key<Owner>> acting_on(ActsOn part, std::vector<Key<Owner>> keys) {
   for (Key<Owner>& key : keys)
-    if (!key.stated_role) key.stated_role = role;
+    if (key.acts_on == ActsOn::mechanics) key.acts_on = part;
   return keys;
 }
 
-// --- What else there is to say about a key: number_key(...) | written_where(...) | plausibly(...). ---
+// --- What else there is to say about a key: number_key(...) | written_where(...). ---
 
 template <class Owner, std::invocable<Key<Owner>&> Change>
 Key<Owner> operator|(Key<Owner> key, const Change& change) {
@@ -357,28 +354,9 @@ inline auto usually(std::string words) {
   return [words = std::move(words)](KeyDescription& key) { key.usual = words; };
 }
 
-/// What is plausible of it, which are limits or words (of a flag "true"), why, and its role.
-template <class What>
-auto plausibly(What what, std::string because, std::optional<Role> role = {}) {
-  return [=](KeyDescription& key) {
-    key.plausible = {.because = because};
-    if constexpr (std::is_same_v<What, Limits>)
-      key.plausible.limits = what;
-    else
-      key.plausible.words = what;
-    key.stated_role = role;
-  };
-}
-/// The same; 0 is plausible too, where it stands for "none".
-inline auto zero_or_plausibly(Limits limits, std::string because, std::optional<Role> role = {}) {
-  return [judge = plausibly(limits, std::move(because), std::move(role))](KeyDescription& key) {
-    judge(key);
-    key.plausible.or_zero = true;
-  };
-}
-/// All that is allowed is plausible, and why.
-inline auto always_plausible(std::string because, std::optional<Role> role = {}) {
-  return plausibly(any_number(), std::move(because), std::move(role));
+/// Another value changes that part of a computation.
+inline auto acting_on(ActsOn part) {
+  return [part](KeyDescription& key) { key.acts_on = part; };
 }
 
 /// Something that follows from it is done to its owner after it is set.

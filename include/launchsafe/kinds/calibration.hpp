@@ -15,12 +15,13 @@ struct CalibrationSettings {
   double temperature_weight = 0.5;             ///< K, standard deviation of a published temperature
   double spread_weight = 2, place_weight = 2;  ///< K, of spreads, and of what a published place is colder
   std::string file = "constants.toml";         ///< name of the constants file
-  /// Intervals of inputs in which the constants hold, as people write them; of materials the largest
-  /// difference of their numbers. Empty where the study says nothing.
-  std::map<std::string, std::string> range{
-      {"peak_pressure", ""},  {"initial_temperature", ""}, {"calibre", ""},   {"charge_length", ""},
-      {"wall_thickness", ""}, {"crack_radius", ""},        {"flaw_size", ""}, {"steel", ""},
-      {"explosive", ""}};
+  /// Intervals in which the constants hold, by the names of scene::range_keys, as people write them; empty
+  /// where the study states none.
+  std::map<std::string, std::string> range = [] {
+    std::map<std::string, std::string> intervals;
+    for (const scene::RangeKey& each : scene::range_keys()) intervals[each.name];
+    return intervals;
+  }();
 };
 
 /// A key that is fitted.

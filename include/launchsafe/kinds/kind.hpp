@@ -24,7 +24,6 @@ struct StudyResult {
 /// What became of a study of any kind.
 struct StudyOutcome {
   bool interrupted = false;
-  bool indeterminate = false;     ///< something that was asked has no answer
   std::vector<Failure> failures;  ///< in the order of the cases; without those that another shard runs
   study::Timing timing;
   report::Report report;  ///< nothing of a study that was interrupted
@@ -36,12 +35,10 @@ struct StudyTable {
   std::vector<scene::DocumentedKey> keys;  ///< "reference.gap"; none where any scene key may stand
 };
 
-/// A study file as text.
+/// A study file as it was parsed.
 struct StudySource {
   const toml::table& root;
-  std::string_view text;            ///< that the table was made of
-  std::filesystem::path folder;     ///< of the file, from which paths in it start
-  std::optional<double> tolerance;  ///< K, of T max: asked for on the command line
+  std::filesystem::path folder;  ///< of the file, from which paths in it start
 };
 
 /// Which entries of [[vary]] an analysis can make something of.
@@ -97,9 +94,6 @@ StudyOutcome run_study(const study::StudyFile& study, const study::StudyOptions&
 
 /// What the command line adds to a study file.
 struct StudyRequest {
-  /// K; the cheapest setting of the study's accuracy record whose T max is known to that replaces the
-  /// scene's.
-  std::optional<double> tolerance;
   std::size_t most_cases = study::largest_case_count;  ///< more are refused
 };
 

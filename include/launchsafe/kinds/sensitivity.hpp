@@ -3,7 +3,7 @@
 
 #include "launchsafe/kinds/kind.hpp"
 #include "launchsafe/math/polynomial_chaos.hpp"
-#include "launchsafe/study/case_answer.hpp"
+#include "launchsafe/study/case_rows.hpp"
 
 namespace launchsafe::kinds {
 
@@ -30,7 +30,7 @@ std::vector<SensitivityInput> inputs_of(const study::Study& study);
 
 /// One output of a case as a number.
 enum class SensitivityOutput {
-  maximum_temperature,  ///< K, T max of the verdict at the study's gap; see OutputSensitivity::inert
+  maximum_temperature,  ///< K, T max at the study's gap; see OutputSensitivity::inert
   critical_gap,         ///< m
   margin                ///< K, ignition temperature minus that maximum temperature
 };
@@ -38,7 +38,7 @@ enum class SensitivityOutput {
 /// What an output depends on.
 struct OutputSensitivity {
   SensitivityOutput output;
-  /// Temperature and margin are those of a skin that does not react, GapVerdict::heated: so where
+  /// Temperature and margin are those of a skin that does not react, GapRow::heated: so where
   /// any evaluation ignites, since T max then jumps to that of the burning skin. Kinetics do not show in
   /// them.
   bool inert = false;
@@ -55,9 +55,8 @@ struct OutputSensitivity {
 };
 
 struct SensitivityResult : StudyResult {
-  std::vector<study::CaseAnswer> answers;  ///< one for each of StudyFile::cases
+  std::vector<study::CaseRow> rows;  ///< one for each of StudyFile::cases
   std::vector<OutputSensitivity> outputs;
-  bool any_indeterminate() const;  ///< an output without indices
 };
 
 SensitivityResult run_sensitivity(const study::StudyFile& study, const study::StudyOptions& options = {});

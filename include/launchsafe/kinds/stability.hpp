@@ -2,7 +2,7 @@
 #pragma once
 
 #include "launchsafe/kinds/kind.hpp"
-#include "launchsafe/study/case_answer.hpp"
+#include "launchsafe/study/rows.hpp"
 
 namespace launchsafe::kinds {
 
@@ -46,7 +46,7 @@ struct StressCase {
   std::string refused;            ///< a case of the reader: what it must say of the scene; else empty
   std::string refusal;            ///< what the reader said; empty where it took the scene
   std::vector<Outcome> expected;  ///< acceptable ones; empty: anything but WRONG
-  double numerical_uncertainty = study::not_a_number;  ///< K, of T max; NaN: the study's
+  double tolerance = study::not_a_number;  ///< K, by which T max may be off that of the safe computation
   /// Steps within which a broken computation must be caught; 0: any number.
   std::uint64_t caught_within = 0;
   std::vector<double> gaps;            ///< m, to judge; all on one run
@@ -59,7 +59,8 @@ struct StressCase {
 
 /// What a study file of this kind says besides.
 struct StabilitySettings {
-  std::vector<StressCase> cases;  ///< in the order written; their runs are among the cases
+  double temperature_tolerance = 4.0;  ///< K, StressCase::tolerance of cases that state none
+  std::vector<StressCase> cases;       ///< in the order written; their runs are among the cases
 };
 
 /// How a run violates the invariants, a sentence each; none for a sound one. All but the same temperature,
@@ -69,9 +70,9 @@ Sentences violations_of(const CompletedRun& run);
 /// A stress case and what became of it.
 struct StressCaseRow {
   StressCase asked;
-  study::CaseAnswer answer;               ///< of a case that runs, or why it was not computed
+  study::CaseRow result;                  ///< of a case that runs, or why it was not computed
   double end_time = study::not_a_number;  ///< s, reached
-  /// By gap, K; none without a safe computation: GapVerdict::heated of that, and how far the case
+  /// By gap, K; none without a safe computation: GapRow::heated of that, and how far the case
   /// is off it, both up to ignition: beyond it they say the same.
   std::vector<double> heated_against, deviations;
   Finding finding;
@@ -90,10 +91,11 @@ struct StabilityResult : StudyResult {
 /// Runs a study of kind stability. A case that breaks is its row. Apart from the timing the result depends on
 /// the study alone. Of a launch and its runs through ignition the worst counts.
 ///
-/// Caught: the reader refused the scene, or the run was stopped. WRONG: an invariant is violated, and yet a
-/// verdict says SAFE or UNSAFE, or the run went through an ignition. Degraded: the same with an indeterminate
-/// verdict; validity warnings, limiters, a temperature that is no number, nothing that ignited, a stop that
-/// came later than it must, or nothing left to compare with. Held: everything else.
+/// Caught: the reader refused the scene, or the run was stopped. WRONG: an invariant is violated, and nothing
+/// in the result says so: no validity warning, no limiter, no temperature that is no number; or the run went
+/// through an ignition. Degraded: an invariant is violated, and the result says so; validity warnings,
+/// limiters, nothing that ignited, a stop that came later than it must, or nothing left to compare with.
+/// Held: everything else.
 StabilityResult run_stability(const study::StudyFile& study, const study::StudyOptions& options = {});
 
 /// How many cases came out how; and every one that is WRONG, not as expected or not computed, by name.

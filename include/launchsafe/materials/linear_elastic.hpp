@@ -67,10 +67,9 @@ class LinearElastic::Integrator {
 inline std::vector<keys::Key<LinearElastic>> LinearElastic::parameters() {
   using keys::above_to, keys::between, keys::Dimension;
   const auto number = [](const char* key, Dimension dimension, keys::Limits limits, const char* sentence,
-                         auto member, keys::Role role = {}) {
+                         auto member, keys::ActsOn acts_on = keys::ActsOn::mechanics) {
     return keys::number_key(key, dimension, limits, keys::Standing::assumed, sentence, member) |
-           keys::always_plausible("it is for checks against closed forms, and no published launch is of it",
-                                  role);
+           keys::acting_on(acts_on);
   };
   return keys::keys_of_part<LinearElastic>(
       "elastic.", std::identity{},
@@ -82,9 +81,9 @@ inline std::vector<keys::Key<LinearElastic>> LinearElastic::parameters() {
           number("shear_modulus", Dimension::pressure, above_to(0, 1e12), "Shear modulus G.",
                  &LinearElastic::shear),
           number("specific_heat", Dimension::specific_heat, between(50, 1e4), "Specific heat.",
-                 &LinearElastic::specific_heat, {keys::ActsOn::heat}),
+                 &LinearElastic::specific_heat, keys::ActsOn::heat),
           number("conductivity", Dimension::conductivity, between(0, 1e4), "Thermal conductivity.",
-                 &LinearElastic::conductivity, {keys::ActsOn::conduction}),
+                 &LinearElastic::conductivity, keys::ActsOn::conduction),
       });
 }
 

@@ -49,11 +49,11 @@ inline Column temperature_early(double early_time) {
 // Of verdicts.
 inline const Column uncertainty{
     "uncertainty", "uncertainty", significant(2, kelvin),
-    "By how much T max may be higher, all shares together; infinite where an end of the range ignites."};
+    "Uncertainty of T max: the bounds of the critical gap by the slope of T max over the gap."};
 inline const Column verdict{"verdict", "verdict", text(),
                             "SAFE, UNSAFE or INDETERMINATE; only SAFE promises anything."};
 inline const Column reason{"reason", "reason", text(), "Why it is so."};
-inline const Column reason_code{"reason_code", "code", text(), "The rule by which the verdict was found."};
+inline const Column reason_code{"reason_code", "code", text(), "The rule that gave the verdict."};
 inline const Column remark = headed("remark", reason);
 inline const Column ignition_time{"ignition_time", "ignition", fixed(2, millisecond), "Instant of ignition."};
 inline const Column skin_took{
@@ -73,17 +73,12 @@ inline const Column used_for{"used_for", "used for", text(),
 // Of critical gaps.
 inline const Column critical_gap{
     "critical_gap", "critical gap", significant(6, centimetre),
-    "Smallest gap that ignites, the middle of its bracket; none where the search gave a bound or nothing."};
-inline const Column critical_gap_kind{"critical_gap_kind", "kind", text(),
-                                      "Whether the search gave a value, a bound, or nothing."};
+    "Smallest gap that ignites, 0 where it ignites without one; none where the search found no ignition."};
+inline const Column critical_gap_kind{
+    "critical_gap_kind", "kind", text(),
+    "value, all-safe, all-ignite, several-crossings (the number is the first), or unknown."};
 inline const Column critical_gap_reads_as{"critical_gap_reads_as", "critical gap", text(),
-                                          "The critical gap or its bound in words."};
-
-/// By which a report finds the setting of an accuracy study that a case was computed with.
-inline const Column recorded_uncertainty =
-    for_programs(Column{"recorded_uncertainty", "recorded uncertainty", significant(3, kelvin),
-                        "Bound of T max that an accuracy record has for the numerics and the launch of the "
-                        "case; none where no record speaks of it."});
+                                          "The critical gap in words."};
 
 // Of runs.
 inline const Column status{"status", "run", text(), "How the mechanical run ended."};
@@ -129,16 +124,6 @@ inline const Column exchange_time{"exchange_time", "exchange time", significant(
                                   "Exchange time between air and skin."};
 inline const Column ignition_temperature{"ignition_temperature", "T1", fixed(2, kelvin),
                                          "Ignition temperature."};
-inline const Column load_peak_time{"peak_time", "peak time", significant(6, millisecond),
-                                   "Instant of the load's peak."};
-inline const Column load_width{"width", "width", significant(6, millisecond), "Width of the load's bell."};
-inline const Column load_steepness{"steepness", "steepness", significant(6), "Steepness of the load's bell."};
-inline const Column change_to_finer{
-    "station_change_to_finer", "change to the finer mesh", significant(3, kelvin),
-    "Largest change of a station's temperature at the end of the launch, without a gap, to the finer "
-    "mesh."};
-inline const Column change_from_coarser{"station_change_from_coarser", "from the coarser",
-                                        significant(3, kelvin), "The same from the coarser mesh."};
 
 // Of what tables say in units of the row.
 inline const Column output{"output", "output", text(), "The output that the row is about."};

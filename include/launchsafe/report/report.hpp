@@ -103,7 +103,7 @@ struct PageText {
 /// that do not fit together.
 std::vector<PageText> texts_in(const std::string& file, const std::string& name);
 
-/// What a text is said of: "main.gap_shares where case {{own.case}} largest lowers_cm". Once where it names
+/// What a text is said of: "main.causes where case {{own.case}} largest shorter_cm". Once where it names
 /// nothing; facts that are false or empty have nothing to say. All rows with the largest or smallest number
 /// are chosen; "lowest" are those without a number where there are such, and else those with the smallest.
 std::vector<const Row*> selected(const PageText& text, const Row& facts);
@@ -137,8 +137,8 @@ extern const char *const built_in_html, *const built_in_markdown, *const built_i
 /// What is said of a study while it runs.
 extern const char* const status_text_template;
 
-/// What the notes under a name say of tables and pages of several kinds of study, "mesh" those of
-/// "mesh.stated" too; empty ones are left out.
+/// What the notes under a name say of tables and pages of several kinds of study, "verdicts" those of
+/// "verdicts.models" too; empty ones are left out.
 std::vector<std::string> noted(const std::string& name, const Row& facts = Row::object());
 
 }  // namespace launchsafe::report

@@ -24,8 +24,7 @@ struct StudyEvidence {
   scene::SceneFile scene;  ///< what was simulated, with what the study sets
   Row study;               ///< study.json, its pictures with their SVG; null while it is not finished
   std::string tells = tells::nothing;
-  /// What is not as in the scene of the report's main study; values that somebody accepts as "accept".
-  std::vector<study::Difference> differences = {};
+  std::vector<std::string> differences = {};  ///< from the main study's scene: study::differences
 
   bool finished() const { return study.is_object(); }
   /// That makes it again, or goes on with it.
@@ -55,8 +54,6 @@ struct CaseEvidence {
   std::string label;    ///< "496 MPa, 30 µm, 1 mm"; of a sweep its place on the axes
   std::vector<const Row*> verdicts = {};
 
-  /// Of a few cases a study tells how they ran, and what makes their critical gaps uncertain.
-  bool in_detail() const { return run != critical; }
   /// Whether it has nothing otherwise than the study's scene.
   bool is_own() const;
   /// Temperatures of a run that was cut off are those of a part of the launch.
@@ -74,9 +71,6 @@ std::vector<CaseEvidence> cases_of(const StudyEvidence& study);
 /// read, another model version than this program's, a damaged case, two studies of a kind that tell the same,
 /// studies of different shells.
 store::Result<SafetyEvidence> read_safety_evidence(const std::vector<std::filesystem::path>& folders);
-
-/// cm: the largest computed gap that is SAFE together with every smaller one. Nothing is interpolated.
-std::optional<double> largest_safe_gap(std::vector<Row> verdicts);
 
 /// T max against gap of one launch in the colours of its verdicts, with its critical gap and what was
 /// published. `tables`: rows of its study.

@@ -3,7 +3,7 @@
 #pragma once
 
 #include "launchsafe/report/report.hpp"
-#include "launchsafe/study/verdict.hpp"
+#include "launchsafe/study/rows.hpp"
 
 #include <ctime>
 
@@ -66,40 +66,50 @@ std::string study_json(const study::StudyFile& study, const Report& report,
 
 // --- verdicts and critical gaps as cells and sentences, the same in every study that judges gaps ---
 
-/// From T max to the energy of the air: what is known of one gap of one case.
-Quantities<study::GapVerdict> verdict_quantities(const study::Study& study);
-
-/// Kind, value and bracket of a critical gap, and how it reads.
-Quantities<study::CriticalGap> critical_gap_quantities();
-/// Those and the bounds of it, of a kind that finds them.
-Quantities<study::CriticalGap> bounded_gap_quantities();
-
-/// A case with its critical gap, however the study keeps it.
-struct NamedGap {
-  std::string label;
-  const study::CriticalGap* gap;
+/// A gap with the case that it belongs to.
+struct JudgedGap {
+  const study::CaseRow* of;
+  const study::GapRow* gap;
 };
+/// Columns of a gap: temperatures, uncertainty, verdict, ignition, energy of the air.
+Quantities<JudgedGap> verdict_quantities(const study::Study& study);
 
-/// What every table of verdicts must say: an uncertainty that is assumed or stated by hand, a charge off the
-/// grid lines.
-std::vector<std::string> mesh_notes(const study::StudyFile& study);
-/// What temperatures are read over.
+/// Columns of a critical gap: kind, number, words.
+Quantities<study::CriticalGap> critical_gap_quantities();
+/// Columns of a case: the critical gap with its bounds, basis, warnings, and what is accepted.
+Quantities<study::CaseRow> case_quantities();
+
+/// A case with its name.
+struct NamedCase {
+  std::string label;
+  const study::CaseRow* row;
+};
+/// A row for every cause that makes the critical gap of a case uncertain.
+Table cause_table(const std::vector<NamedCase>& cases);
+
+/// Notes for every page with verdicts: numerics stated by hand, no other models, no expected velocity, a
+/// charge off the grid lines, and what `acceptances_to_write` returns. `rows`: of the study's cases; none for
+/// a study that gives no verdicts.
+std::vector<std::string> verdict_notes(const study::StudyFile& study,
+                                       const std::vector<study::CaseRow>& rows);
+/// Lines of a study file that accept the open warnings and extrapolations of these cases, each name once,
+/// with reasons to be filled in; empty where nothing is open that a study may accept.
+std::vector<std::string> acceptances_to_write(const std::vector<study::CaseRow>& rows);
+/// A note on the stations over which temperatures are averaged.
 std::string station_note(const study::StudyFile& study);
 
 /// Whether constants were fitted to a published number of a gap (m); null: no constants.
 study::Use use_of(const std::shared_ptr<const scene::Constants>& constants, double gap, double published);
 
-/// The value in m, NaN for anything that is none: a bound never passes for a value.
+/// The number of a critical gap, m; NaN where the search found no ignition or nothing.
 double value_of(const study::CriticalGap& gap);
-/// cm: the value between its bounds; nothing where it is none, or one of them is not known.
-std::optional<Measured> measured_gap(const study::CriticalGap& gap);
-/// "0.039 ± 0.010 cm": the one way in which it is quoted; as it reads where its bounds are not known.
-std::string measured_text(const study::CriticalGap& gap);
+/// The critical gap of a case between its bounds, cm; nothing where it is no value or a bound is not known.
+std::optional<Measured> measured_gap(const study::CaseRow& of_case);
+/// "0.039 ± 0.010 cm"; `reads_as` where the bounds are not known.
+std::string measured_text(const study::CaseRow& of_case);
 /// "0.0395 cm", "ignites without a gap", "no ignition", "not known".
 std::string gap_text(study::GapOrBound gap);
-/// What makes critical gaps uncertain, cause by cause.
-Table gap_share_table(const std::vector<NamedGap>& cases);
-/// "0.0395 cm", "> 0.1 cm", "ignites without a gap", "indeterminate".
+/// "0.0395 cm", "> 1 cm", "ignites without a gap", "several, the first at 0.0395 cm", "unknown".
 std::string reads_as(const study::CriticalGap& gap);
 
 /// On what the absolute value of a critical gap rests.

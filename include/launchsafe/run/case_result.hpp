@@ -153,7 +153,7 @@ std::vector<double>& values_of(Snapshot& snapshot, const SnapshotField& field);
 /// Whether particles of a body have it.
 bool has_field(const scene::Scene& scene, const scene::Body& body, const SnapshotField& field);
 
-/// On how many particle-steps limiters acted; a verdict that depended on one says so.
+/// On how many particle steps limiters acted.
 struct LimiterCounts {
   std::uint64_t crack_at_bound = 0, tension_cutoff = 0, hugoniot_guard = 0;
   LimiterCounts& operator+=(const LimiterCounts& other);
@@ -287,7 +287,6 @@ struct GapResult {
   surface::Maximum at_stations;  ///< T_max over the stations, the whole bottom: what verdicts use
   surface::Maximum at_points;    ///< over the observation points; NaN without any
   surface::AirEnergy air;        ///< what the skin took from the air
-  double sampling_error = 0;     ///< K, |T_max - T_max on the thinned trace|
   bool with_mechanics = false;   ///< integrated inside the mechanics rather than on its trace
   std::optional<CombustionHistory> combustion;  ///< of one that ignited, where the coupling is two-way
 };

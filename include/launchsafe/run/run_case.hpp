@@ -3,6 +3,7 @@
 #pragma once
 
 #include "launchsafe/run/case_result.hpp"
+#include "launchsafe/run/warning.hpp"
 
 #include <atomic>
 
@@ -23,8 +24,8 @@ struct RunOptions {
 /// then is kept. The result depends on the scene alone, bitwise, not on what else runs.
 MechanicsResult run_mechanics(const scene::Scene& scene, const RunOptions& options = {});
 
-/// Skin temperatures of one gap (m) on a finished trace, with the trace's sampling error. The scene's surface
-/// and kinetics parameters apply; its own list of gaps does not.
+/// Skin temperatures of one gap (m) on a finished trace. The scene's surface and kinetics parameters apply;
+/// its own list of gaps does not.
 GapResult evaluate_gap(const scene::Scene& scene, const trace::BottomTrace& trace, double gap);
 
 /// `run_mechanics` and `evaluate_gap` for each of the scene's gaps; with two-way coupling `run_with_skin` for
@@ -47,19 +48,24 @@ CaseResult run_with_skin(const scene::Scene& scene, double gap, const RunOptions
 
 // --- validity warnings: why a run that completed may still be no basis for a verdict ---
 
-/// Reasons, each a clause for people, for which a completed run must not be trusted; none for a sound one.
-/// They rest on the scene and on what the run recorded, so that stored runs can be judged too.
-std::vector<std::string> validity_warnings(const scene::Scene& scene, const MechanicsResult& mechanics);
+/// Warnings of the computation and of the shell; none for a sound run. They follow from the scene and from
+/// recorded results, so that stored runs can be judged too.
+std::vector<Warning> validity_warnings(const scene::Scene& scene, const MechanicsResult& mechanics);
 
-/// The same of what followed ignition in a run with two-way coupling. Until ignition inertia may be scaled;
-/// gas that expands sets masses in motion, which must be the true ones. A measured load that ends before the
-/// run is held at its last pressure.
+/// Warnings of the launch, from the motion of the projectile as one rigid body until the muzzle exit, or
+/// until the end where there is none: "low-velocity", "high-velocity", "short-travel". No computation is
+/// needed.
+std::vector<Warning> launch_warnings(const scene::Scene& scene);
+
+/// Reasons, a clause each, for which results after ignition must not be trusted in a run with two-way
+/// coupling. Until ignition inertia may be scaled; gas that expands sets masses in motion, which must be the
+/// true ones. A measured load that ends before the run is held at its last pressure.
 std::vector<std::string> combustion_validity_warnings(const scene::Scene& scene,
                                                       const CombustionHistory& combustion);
 
-/// What of the launch lies outside the simulated time, a clause each for people; nothing for one that begins
-/// at rest, reaches its stated peak, and is over at the end: at a hundredth of its peak pressure, or where
-/// the scene states the muzzle exit, behind which the pressure decays (scene/load.hpp).
+/// Parts of the launch that the simulated time leaves out, a clause each. None for a launch that begins at
+/// rest, reaches its stated peak, and is over at the end: at a hundredth of its peak pressure, or where the
+/// scene states the muzzle exit, behind which the pressure decays (scene/load.hpp).
 std::vector<std::string> uncovered_load(const scene::Load& load);
 
 }  // namespace launchsafe::run

@@ -38,7 +38,7 @@ struct Constants {
   double ignition_lowest = 0, ignition_highest = 0;
   std::vector<FittedNumber> rows;
 
-  /// Intervals of inputs in which the constants hold, by name, as people write them.
+  /// Intervals of inputs in which the constants hold, by the names of range_keys, as people write them.
   std::map<std::string, std::string> range;
   Scene scene;  ///< the launch that they were fitted on, with the constants
 };
@@ -52,6 +52,38 @@ inline constexpr const char *default_constants = "155mm", *no_constants = "none"
 /// keys, and values that the keys cannot have.
 Expected<Constants> parse_constants(const std::string& text, const std::string& file);
 std::string to_toml(const Constants& constants);
+
+/// An interval of the inputs of a launch in which constants hold.
+struct RangeKey {
+  std::string name;  ///< "calibre"
+  /// Measure of its ends: a pressure, a length, ...; a share is the largest relative difference of any number
+  /// of a material from that of the launch that was fitted.
+  Dimension dimension = Dimension::length;
+  bool acceptable = true;  ///< whether a study may go beyond it with a reason
+  std::string meaning;
+};
+const std::vector<RangeKey>& range_keys();
+
+/// An interval that a scene lies outside of.
+struct OutsideOfRange {
+  std::string name;
+  std::string found, allowed;  ///< for people
+  bool acceptable = true;
+};
+/// Those of constants that a scene lies outside of, in the order of range_keys; an interval that the constants
+/// do not state holds for nothing.
+std::vector<OutsideOfRange> outside_of_range(const Constants& constants, const Scene& scene);
+
+/// The fitted constants that act on the skin alone, and the covariance of their logarithms, row by row, while
+/// the others, which make the launch, stay as they are.
+struct SkinConstants {
+  std::vector<std::string> keys;
+  std::vector<double> covariance;
+};
+SkinConstants skin_constants(const Constants& constants);
+
+/// K, the largest temperature that the fit missed.
+double largest_temperature_misfit(const Constants& constants);
 
 /// The constants of a name: shipped ones, the file at a path from `folder`, or none (null). Throws an
 /// InputError at `place` of `key` for a name that is neither.

@@ -233,7 +233,7 @@ bool changes_too_fast_for_selective_inertia(const Scene& scene);
 double usual_selective_inertia(const Scene& scene);
 
 /// The scene with everything that cannot influence the mechanical run, its trace or its snapshots at its
-/// default: title, file names and acceptances; gap, air (but for its initial pressure, below which no bottom
+/// default: title and file names; gap, air (but for its initial pressure, below which no bottom
 /// pressure is traced), exchange and localisation; numbers of the analytic load under a measured curve. The
 /// plan's switches stand as decided, without what the decision rests on. Kinetics, heat conduction, friction
 /// closure and specific heat of laws that do not heat themselves stay only where the plan, or a snapshot,

@@ -167,14 +167,6 @@ struct Physics {
   Switch bulk_reaction = Switch::automatic;  ///< Arrhenius heat in the bulk of the charge
 };
 
-/// What the user says of a value that is allowed but not plausible, or not the calibrated one: that this
-/// value is meant, and why.
-struct Acceptance {
-  std::string key;
-  std::string value;  ///< as people write it; of a number also a range
-  std::string because;
-};
-
 /// Whether what the skin does after its ignition acts on the mechanics.
 enum class Coupling { one_way, two_way };
 /// What follows ignition in a run with two-way coupling.
@@ -198,7 +190,6 @@ struct Scene {
   Physics physics;
   Coupling coupling = Coupling::one_way;
   Combustion combustion;
-  std::vector<Acceptance> accepted;
 
   /// The first material of a law, which the law's keys speak of. The usual one where there is none; the
   /// second form then adds it.

@@ -23,12 +23,12 @@ std::string_view meaning_of(Standing standing);
 std::string example_of(const KeyDescription& key);
 /// "a length, more than 0 cm, such as ...": for messages and the key listing.
 std::string allowed_text(const KeyDescription& key);
-/// "0.05 ms to 2 ms, because ...": what is plausible of a key; "any" where all that is allowed is.
-std::string plausible_text(const KeyDescription& key);
 /// A value as people read it ("0.003 cm", "axisymmetric", "0 to 11.8 cm").
 std::string format_value(const KeyDescription& key, const Value& value);
 /// A value as TOML that reads back to exactly the same.
 std::string exact_toml(const KeyDescription& key, const Value& value);
+/// Whether two values are one: numbers up to a relative tolerance.
+bool same_value(const Value& a, const Value& b, double tolerance);
 
 /// What is needed to name a place in a file.
 struct Place {
@@ -39,6 +39,8 @@ struct Place {
 Place place_of(const toml::node& node, const std::string& file);
 InputError error_at(const Place& place, std::string_view key, std::string_view found,
                     std::string_view allowed, std::string_view suggestion = {});
+/// Throws the fault of a key at a place whose text is no reason: it has at least two words and eight letters.
+void check_reason(const std::string& text, const Place& place, const std::string& key);
 /// `"abc"`, `12`, `a table`: a TOML value as found, for messages.
 std::string found_text(const toml::node& node);
 

@@ -82,11 +82,22 @@ CaseRun skin_run(const scene::Scene& scene, double gap, std::string label);
 /// What determines the result of a run: model version, kind of run, and scene.
 store::CaseIdentity identity_of(const CaseRun& run);
 
+/// What the launch of a run is to its case.
+enum class Part {
+  own,
+  through_ignition,    ///< of a gap, and on through combustion
+  raised,              ///< with the peak pressure at the end of its spread
+  companion,           ///< with cells twice or half as large
+  cells_of_constants,  ///< with the cells that its constants were fitted on
+  model                ///< under other constants
+};
+
 /// A run of a study that waits: it is made when it is its turn.
 struct PlannedRun {
   std::function<CaseRun()> make;
-  double cost = 1;         ///< predicted particle updates, > 0: of the run, or of one like it
-  std::string model = {};  ///< other constants of the study that it is a launch under; empty: the case's own
+  double cost = 1;  ///< predicted particle updates, > 0: of the run, or of one like it
+  Part part = Part::own;
+  std::string name = {};  ///< of the other constants
 };
 /// Of a run that is there already.
 PlannedRun planned_run(CaseRun run);
@@ -98,8 +109,8 @@ double memory_of(const CaseRun& run);
 /// Runs that are judged together, and the cases of the study that are judged on them.
 struct CaseRuns {
   std::vector<std::size_t> members;  ///< of StudyFile::cases; those that differ in thermal keys alone share
-  /// The mechanics; then, where the study asks for it, through the ignition of gaps, under a raised load, and
-  /// under each of its other constants.
+  /// The launch itself; then, where the study asks for them, through the ignition of gaps, and those that the
+  /// bounds of its critical gap rest on.
   std::vector<PlannedRun> runs;
   int shard = 1;
 };
@@ -117,19 +128,18 @@ struct FinishedRun {
   run::CaseResult result;  ///< no gaps for the mechanics alone; empty unless the run began or was stored
   std::string hash;        ///< of its identity, likewise
   bool expected = false;   ///< that it is no basis for a verdict is what the study asks for
-  std::string model = {};  ///< as PlannedRun has it
+  Part part = Part::own;   ///< as PlannedRun has them
+  std::string name = {};
   /// Whether there is a result, if perhaps of a run that broke off or ended by itself before its time.
   bool has_result() const;
 };
 
-/// The run for want of which a case cannot be judged; nullptr where it can. A case whose first run broke off
-/// is judged on that run alone, and one whose launch under other constants failed without what that would
-/// say.
+/// The run for want of which a case has no row yet: one of another shard, or one that was not run. nullptr
+/// where there is none: a launch that failed is told in the row.
 const FinishedRun* run_without_result(const std::vector<FinishedRun>& runs);
 
-/// Whether the uncertainty of the inputs is found by propagating the assumed spread, which takes a run with a
-/// raised load beside every case: where verdicts are given and the study states none.
-bool propagates_spread(const Study& study);
+/// The finished run of a part, or of a part and other constants; nullptr without one.
+const FinishedRun* find_part(const std::vector<FinishedRun>& runs, Part part, const std::string& name = {});
 
 // --- Running. ---
 

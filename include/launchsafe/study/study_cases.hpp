@@ -12,6 +12,9 @@ bool same_number(double a, double b);
 /// Likewise; numbers of lists too.
 bool same_value(const scene::Value& a, const scene::Value& b);
 
+/// What two scenes have otherwise: names of scene keys; "body", "interface", "observation_point".
+std::vector<std::string> differences(const scene::Scene& scene, const scene::Scene& other);
+
 /// A scene key with a new value.
 struct Change : scene::KeyChange {
   std::string study_key;  ///< for faults: where in the study it was asked for
@@ -69,6 +72,13 @@ auto read_named_record(StudyFile& study, const std::filesystem::path& folder, co
   study.records.push_back(store::sha256(text));
   return parse(text, (folder / name).string()).or_throw();
 }
+
+/// Gives the scene of a study the constants that the study names, if it names some.
+void use_constants(StudyFile& study, const std::filesystem::path& folder);
+
+/// Refuses a scene, or a study, that states or varies a key that its constants have, where verdicts are given:
+/// a constants file is the one place of these. A steel may be stated, beyond the interval of the constants.
+void check_constants(const StudyFile& study);
 
 /// Reads the constants files that the study names as other models. Refused are: none there, one without
 /// constants, and two of one name.

@@ -2,9 +2,10 @@
 // kept, and a case is made when it is asked for.
 #pragma once
 
+#include "launchsafe/math/numbers.hpp"
 #include "launchsafe/math/sampling.hpp"
-#include "launchsafe/study/accuracy_record.hpp"
-#include "launchsafe/study/record_domain.hpp"
+#include "launchsafe/scene/constants.hpp"
+#include "launchsafe/study/gap_search.hpp"
 
 #include <boost/iterator/counting_iterator.hpp>
 #include <boost/iterator/transform_iterator.hpp>
@@ -33,24 +34,12 @@ std::vector<std::size_t> places_by(std::size_t count, Number number) {
   return places;
 }
 
-/// K. By so much was T max of the 155 mm shell seen to move between meshes of 1 to 10 mm with one set of
-/// constants.
-inline constexpr double assumed_numerical_uncertainty = 60.0;
 /// One mechanical run of a study: a complete, valid scene.
 struct StudyCase {
   std::string label;           ///< "496 MPa, 30 µm, 1 mm"
   double peak_pressure = 0;    ///< Pa
   bool own_conditions = true;  ///< the load and defect of the study's scene, which the references belong to
-  std::vector<double> coordinates;                               ///< SI, of Study::axes
-  double numerical_uncertainty = assumed_numerical_uncertainty;  ///< K, of T max with these numerics
-  bool numerical_uncertainty_assumed = false;  ///< neither stated for these numerics nor of a record
-  std::string why_assumed;                     ///< what of a record does not hold here, a clause
-  /// K; the rise of T max above the initial temperature for which that was found; NaN where it holds for any.
-  /// Hotter skins have proportionally larger errors.
-  double rise_of_uncertainty = not_a_number;
-  /// m, up to which that holds; beyond, it is the assumed one at the least.
-  double covered_gap = math::infinity;
-  double pressure_ratio = 1.0;  ///< peak pressure over that of the study's scene
+  std::vector<double> coordinates;  ///< SI, of Study::axes
   scene::SceneFile scene;
   /// Of its scene.
   const materials::ViscoScramParameters& strength() const { return scene.scene.charge().strength; }
@@ -59,11 +48,6 @@ struct StudyCase {
            strength().flaw_size == other.flaw_size;
   }
   double cell_size() const { return scene.scene.numerics.cell_size; }  ///< m
-  /// K, the bound that an accuracy record has for this case; NaN where it has none or none was taken.
-  double recorded_uncertainty() const {
-    const bool is_recorded = rise_of_uncertainty == rise_of_uncertainty && !numerical_uncertainty_assumed;
-    return is_recorded ? numerical_uncertainty : not_a_number;
-  }
 };
 
 /// The cases of a study in their order. A study may have a million: of those that vary keys of one scene it
@@ -72,8 +56,6 @@ class Cases {
  public:
   /// Makes the case of these values (SI, of Study::axes), which was found valid before; its label is not set.
   using Make = std::function<StudyCase(const std::vector<double>& coordinates)>;
-  /// Fills what is known of a case besides its scene.
-  using Complete = std::function<void(StudyCase& made)>;
 
   std::size_t size() const { return rows_.size(); }
   bool empty() const { return rows_.empty(); }
@@ -88,7 +70,6 @@ class Cases {
   bool has_own_scene(std::size_t index) const { return rows_[index].own != nullptr; }
 
   void make_with(Make make) { make_ = std::move(make); }
-  void complete_with(Complete complete) { complete_ = std::move(complete); }
   void add(std::string label, std::vector<double> coordinates);
   /// A case with a scene of its own.
   void add(StudyCase made);
@@ -111,21 +92,16 @@ class Cases {
 
   std::vector<Row> rows_;
   Make make_;
-  Complete complete_;
 };
 
 /// What the engine has to know of a kind of study.
 struct KindTraits {
   std::string name;         ///< as in `kind = "critical-gap"`
   bool judges_gaps = true;  ///< those of its study file or scene
-  /// Its cases are held against the calibration: what is foreign or not plausible has to be accepted, and the
-  /// uncertainty of fit, inputs and model counts. A stability study judges the computation alone.
+  /// Its gaps get verdicts: each case has launches beside its own for the bounds of its critical gap, and
+  /// constants come from a constants file alone. Other kinds compare numbers.
   bool gives_verdicts = true;
-  /// Bounds of the critical gaps are found, which SAFE needs. A study without them compares numbers.
-  bool bounds_critical_gaps = true;
-  bool keeps_answers = false;  ///< what is concluded of a case is stored beside its runs, unless in
-                               ///< detail (Study::in_detail)
-  bool own_scenes = false;     ///< cases may bring scenes and uncertainties of their own
+  bool own_scenes = false;  ///< cases may bring scenes of their own
   /// Gaps of cases with two-way coupling are run through ignition too.
   bool goes_through_ignition = false;
 };
@@ -160,12 +136,18 @@ struct Reference {
   bool ignited() const { return ignition_time == ignition_time; }
 };
 
-/// An uncertainty that a study states by hand, and on what grounds.
-struct StatedUncertainty {
-  std::string key;                ///< "numerical_uncertainty"
-  double value = 0;               ///< K, of T max
-  std::string because;            ///< the source, in words
-  double assumed = not_a_number;  ///< K, at the least, where it is not stated
+/// What is not known of a launch: two standard deviations each. A share of 0 leaves its cause out.
+struct Spreads {
+  double peak_pressure = 0.04;        ///< share, from round to round
+  double pulse_length = 0.05;         ///< share, at the same peak
+  double initial_temperature = 12.0;  ///< K
+};
+
+/// Error of T max by cells and steps, K, stated in place of a companion launch.
+struct StatedNumerics {
+  double error = not_a_number;  ///< K; NaN: not stated
+  std::string because;          ///< the ground, in words
+  bool is_stated() const { return error == error; }
 };
 
 /// What a study file says, in SI.
@@ -187,42 +169,24 @@ struct Study {
   bool in_detail = false;
 
   std::vector<Axis> axes;     ///< of a full factorial the last is the fastest; none for other kinds
-  double tolerance = 1e-6;    ///< m, largest width of the bracket of the critical gap
-  double largest_gap = 1e-3;  ///< m, where the search for the critical gap ends
-  double numerical_uncertainty = not_a_number;  ///< K, of T max, from a mesh study; NaN: not stated
+  double largest_gap = widest_search;  ///< m, where the search for the critical gap ends
+  /// m: beyond all gaps of the study.
+  double end_of_search() const {
+    return gaps.empty() ? largest_gap : std::max(largest_gap, std::ranges::max(gaps));
+  }
 
   /// Name or path (from the study file's folder) of a constants file; empty: that of the scene.
   std::string constants;
-  Calibration calibration = shipped_calibration();  ///< the launch that the scene's constants were fitted on
 
   // kinds that give verdicts
+  Spreads spreads;
+  StatedNumerics numerics;
   std::string model_names;  ///< of constants files, "a, b": names, or paths from the study file's folder
-  /// Constants from these files: every case is launched under each of them too, to compare critical gaps.
+  /// Constants from these files: every case is launched under each of them too.
   std::vector<std::shared_ptr<const scene::Constants>> models;
-
-  // kinds that may use the record of an accuracy study
-  std::string accuracy;  ///< paths of records from the study file's folder, "a, b"; empty: none
-  double setting_tolerance = not_a_number;  ///< K, of T max: picks a recorded setting; NaN: the scene's
-  /// K, of T max by the calibrated constants on the rows that they were fitted to; NaN: not stated
-  double fit_uncertainty = not_a_number;
-  /// K, of T max by what is not known of the launch, for the study's own scene; NaN: not stated
-  double input_uncertainty = not_a_number;
-
-  std::vector<StatedUncertainty> stated;  ///< by hand, as written
-
-  /// What the study itself states, rather than its scene, and is not plausible; accepted or not.
-  std::vector<scene::Implausible> implausible;
-  std::vector<scene::Acceptance> accepted;  ///< what is accepted of it, needed or not
+  /// Reasons for which warnings, and intervals of the constants, are accepted; by their names.
+  std::map<std::string, std::string> accepted_warnings, accepted_extrapolation;
 };
-
-/// K, on a grid that does not run along the charge, or with other than one particle a cell: the largest bound
-/// that the record of the 155 mm shell has for such numerics is 99 K.
-inline constexpr double assumed_uncertainty_off_grid = 100.0;
-
-/// K, of T max by constants that were fitted under a load of another shape: so much was the largest misfit of
-/// the 155 mm shell with the power-exponential, fitted to the same rows as the bell (its temperature of 0.04
-/// cm at 10 ms).
-inline constexpr double assumed_other_load_shape = 12.81;
 
 /// Largest number of cases of a study.
 inline constexpr std::size_t largest_case_count = 1'000'000;
@@ -236,7 +200,6 @@ struct StudyFile {
   scene::SceneFile scene;                        ///< with the overrides
   /// SHA-256 of every file that the study rests on besides its scene: another one is another study.
   std::vector<std::string> records;
-  std::string chosen_setting;  ///< what a tolerance picked from an accuracy record, for people; else empty
   Cases cases;                 ///< in the order that the kind says
   std::size_t most_cases = largest_case_count;  ///< a study with more is refused
   std::size_t confirmations_per_case = 0;       ///< coupled runs that may follow once its gaps are judged
