@@ -11,13 +11,7 @@ using Json = nlohmann::ordered_json;
 using std::filesystem::path;
 
 /// What the program returns to its caller. `failed` is a fault of the machine or of the program itself.
-enum class ExitCode {
-  done = 0,
-  bad_input = 2,
-  cases_failed = 3,
-  failed = 70,
-  interrupted = 75
-};
+enum class ExitCode { done = 0, bad_input = 2, cases_failed = 3, failed = 70, interrupted = 75 };
 
 /// Ends a command before its own end; what there was to say is said.
 struct Ended {

@@ -120,8 +120,7 @@ std::string answer(const AccuracyResult& result) {
 
 Report report_of(const AccuracyResult& result) {
   Report report{result.study.study.title, answer(result), report::remaking_command(result.study)};
-  if (result.reference)
-    report.draw({"error_against_time.svg", error_plot(result), "error against run time"});
+  if (result.reference) report.draw({"error_against_time.svg", error_plot(result), "error against run time"});
   report.add({setting_table(result), "accuracy.csv", "settings"});
   report.add({reference_table(result), "reference.csv", "reference", Shown::page});
   report.say(said_below("accuracy.files"));

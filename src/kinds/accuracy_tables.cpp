@@ -29,11 +29,10 @@ Quantities<ReferenceRow> reference_quantities(const std::vector<double>& sizes) 
                                       {quantity::unit, &ReferenceRow::what, &Column::form, &Form::unit}};
   for (std::size_t mesh = 0; mesh < sizes.size(); ++mesh) {
     const std::string cells = digits_of(sizes[mesh], quantity::cell_size.form);
-    quantities.emplace_back(
-        "cells_" + cells + "_mm", cells + " mm", significant(7), "Value on that reference mesh.",
-        [mesh](const ReferenceRow& row) {
-          return shown_value(value_at(row.value->values, mesh), row.what.form);
-        });
+    quantities.emplace_back("cells_" + cells + "_mm", cells + " mm", significant(7),
+                            "Value on that reference mesh.", [mesh](const ReferenceRow& row) {
+                              return shown_value(value_at(row.value->values, mesh), row.what.form);
+                            });
   }
   return joined<ReferenceRow>(
       {quantities,
@@ -72,18 +71,17 @@ const Column processor_time{"processor_time", "processor time", fixed(1, second)
 Quantities<AccuracyRow> temperature_errors(const std::vector<double>& gaps) {
   Quantities<AccuracyRow> quantities;
   for (std::size_t gap = 0; gap < gaps.size(); ++gap)
-    quantities.emplace_back(
-        "temperature_error_" + digits_of(gaps[gap], quantity::gap.form) + "_cm",
-        "T error at " + centimetres(gaps[gap]), fixed(2, kelvin), "Error at that gap.",
-        [gap](const AccuracyRow& row) { return value_at(row.temperature_error, gap); });
+    quantities.emplace_back("temperature_error_" + digits_of(gaps[gap], quantity::gap.form) + "_cm",
+                            "T error at " + centimetres(gaps[gap]), fixed(2, kelvin), "Error at that gap.",
+                            [gap](const AccuracyRow& row) { return value_at(row.temperature_error, gap); });
   return quantities;
 }
 
 Quantities<AccuracyRow> setting_quantities(const std::vector<double>& gaps) {
   return joined<AccuracyRow>(
       {{{"setting", "setting", text(), "What is set otherwise than in the scene.", &AccuracyRow::label},
-        {"cell", "cell", significant(3, keys::millimetre), "Size of the charge's smallest cells, as computed.",
-         &AccuracyRow::cell},
+        {"cell", "cell", significant(3, keys::millimetre),
+         "Size of the charge's smallest cells, as computed.", &AccuracyRow::cell},
         {processor_time, &AccuracyRow::processor_time}},
        temperature_errors(gaps),
        {{temperature_bound, &AccuracyRow::temperature_bound},

@@ -28,7 +28,8 @@ StudyKeys reason_keys() {
       keys.push_back(reason_key("accept.", each.name, each.meaning, &Study::accepted_warnings));
   for (const scene::RangeKey& each : scene::range_keys())
     if (each.acceptable)
-      keys.push_back(reason_key("accept.extrapolation.", each.name, "outside of the interval of the " + each.meaning,
+      keys.push_back(reason_key("accept.extrapolation.", each.name,
+                                "outside of the interval of the " + each.meaning,
                                 &Study::accepted_extrapolation));
   return keys;
 }
@@ -156,12 +157,12 @@ StudyKeys verdict_keys() {
                      &StatedNumerics::error),
           text_key("because", Standing::input, "Ground for it, in words.",
                    "companions of the corners of this sweep", &StatedNumerics::because)});
-  const StudyKeys models{
-      text_key("models", Standing::input,
-               "Other constants, \"a, b\": names, or paths of constants files from the study file's "
-               "folder. Every case is launched under each of them too, and the largest change of its critical "
-               "gap widens its bounds.",
-               "bonded_base, wall_friction", &Study::model_names)};
+  const StudyKeys models{text_key(
+      "models", Standing::input,
+      "Other constants, \"a, b\": names, or paths of constants files from the study file's "
+      "folder. Every case is launched under each of them too, and the largest change of its critical "
+      "gap widens its bounds.",
+      "bonded_base, wall_friction", &Study::model_names)};
   return joined({spreads, numerics, models, reason_keys()});
 }
 
@@ -187,9 +188,11 @@ void check_reasons(const StudyFile& study) {
   const study::StatedNumerics& numerics = study.study.numerics;
   if (numerics.is_stated() || !numerics.because.empty()) {
     if (!numerics.is_stated())
-      refuse_at(study, "numerics.because", "a ground without a value", "numerics = { value = \"1 K\", because = \"...\" }");
+      refuse_at(study, "numerics.because", "a ground without a value",
+                "numerics = { value = \"1 K\", because = \"...\" }");
     if (!study.places.contains("numerics.because"))
-      refuse_at(study, "numerics.value", "a value without a ground", "numerics = { value = \"1 K\", because = \"...\" }");
+      refuse_at(study, "numerics.value", "a value without a ground",
+                "numerics = { value = \"1 K\", because = \"...\" }");
     scene::check_reason(numerics.because, place_of_key(study, "numerics.because"), "numerics.because");
   }
   const auto check = [&](const std::map<std::string, std::string>& reasons, const std::string& table) {

@@ -1,7 +1,6 @@
 #include "launchsafe/math/statistics.hpp"
 
 #include <Eigen/Dense>
-#include <boost/math/distributions/students_t.hpp>
 #include <boost/math/tools/toms748_solve.hpp>
 
 #include <algorithm>
@@ -90,11 +89,6 @@ std::optional<LeastSquares> fit_line(const std::vector<double>& x, const std::ve
   std::vector<std::vector<double>> rows;
   for (const double value : x) rows.push_back({1.0, value});
   return least_squares(rows, y);
-}
-
-double one_sided_student_factor(int n, double level) {
-  if (n < 1 || !(level > 0.0 && level < 1.0)) return not_a_number;
-  return boost::math::quantile(boost::math::students_t(n), level);
 }
 
 std::optional<GridConvergence> grid_convergence(const std::array<double, 3>& values,

@@ -17,8 +17,7 @@ double largest_in(const std::vector<double>& values) {
 std::string end_of(const run::CombustionHistory& combustion) {
   if (combustion.end == run::CombustionEnd::time) return "time after ignition";
   if (combustion.end == run::CombustionEnd::pressure) return "stop pressure";
-  if (combustion.end == run::CombustionEnd::broke_off) return "broke off: " + combustion.reason;
-  return "charge burnt through";
+  return "broke off: " + combustion.reason;
 }
 
 /// The last value of a history; 0 before the first.

@@ -176,7 +176,6 @@ std::vector<PageText> texts_in(const std::string& file, const std::string& name)
   std::vector<PageText> texts;
   std::istringstream lines(file);
   for (std::string line; std::getline(lines, line);) {
-    if (line.ends_with('\r')) line.pop_back();
     if (line.starts_with("@@") || line.empty()) continue;
     if (line.starts_with('@'))
       texts.push_back({line.substr(1)});

@@ -166,12 +166,6 @@ std::string station_note(const study::StudyFile& study) {
       .front();
 }
 
-std::string gap_text(study::GapOrBound gap) {
-  if (std::isnan(gap)) return "not known";
-  if (gap == study::no_ignition) return "no ignition";
-  return gap > 0.0 ? in_words(gap, keys::significant(4, centimetre)) : "ignites without a gap";
-}
-
 double value_of(const study::CriticalGap& gap) {
   return gap.kind == study::CriticalGapKind::all_safe ? study::not_a_number : gap.value;
 }

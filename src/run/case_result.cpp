@@ -50,20 +50,6 @@ double mass_of(const MechanicsResult& mechanics, std::string_view material) {
   return 0.0;
 }
 
-double largest_at_bottom(const MechanicsResult& mechanics, double bottom,
-                         std::vector<double> InterfaceResult::*values) {
-  constexpr double touching = 1e-9;  // m
-  double most = 0.0;
-  for (const InterfaceResult& faces : mechanics.interfaces) {
-    if (faces.along_x || std::abs(faces.face - bottom) > touching) continue;
-    for (const double value : faces.*values) {
-      if (std::isnan(value)) return value;
-      most = std::max(most, value);
-    }
-  }
-  return most;
-}
-
 namespace {
 
 /// Pa. A hundredth of an atmosphere: it heats nothing.

@@ -1,7 +1,6 @@
 // Where constants hold: the intervals of their launch, and what their fit leaves open.
-#include "launchsafe/scene/constants.hpp"
-
 #include "launchsafe/math/numbers.hpp"
+#include "launchsafe/scene/constants.hpp"
 #include "scene_file.hpp"
 
 #include <Eigen/LU>
@@ -118,9 +117,8 @@ std::vector<OutsideOfRange> outside_of_range(const Constants& constants, const S
     const std::string* interval = find_in(constants.range, key.name);
     auto found = interval == nullptr
                      ? std::optional(OutsideOfRange{key.name, "no interval", "nowhere", key.acceptable})
-                 : key.dimension == Dimension::share
-                     ? outside_of_material(key, *interval, constants, scene)
-                     : outside_of_interval(key, *interval, scene);
+                 : key.dimension == Dimension::share ? outside_of_material(key, *interval, constants, scene)
+                                                     : outside_of_interval(key, *interval, scene);
     if (found) outside.push_back(std::move(*found));
   }
   return outside;

@@ -117,7 +117,6 @@ CaseStore::CaseStore(StoreNames names, std::function<void(const Error&)> on_fail
       since_(utc_now()) {}
 
 CaseStore::~CaseStore() {
-  flush();
   if (writes_) write_status(true);
 }
 
@@ -166,7 +165,7 @@ void CaseStore::save(const CaseIdentity& identity, const scene::Scene& scene, ru
   result.mechanics.wall_time = result.mechanics.processor_time = 0;
   const Result<std::string> bytes = case_bytes(scene, result, manifest);
   const std::filesystem::path path = names_.case_file(record.hash);
-  if (failure()) return;
+  if (flush()) return;
   if (!bytes) return fail(of_file(path, bytes.error()));
   if (const MaybeError error = write_file_atomically(path, *bytes, IfExists::replace)) return fail(*error);
   put(record);
@@ -180,17 +179,8 @@ void CaseStore::note(RunRecord record) {
   put(record);
 }
 
-void CaseStore::write(const std::function<void(Database&)>& make) {
-  change(false, [&] { make(database_); });
-}
-
-void CaseStore::read(const std::function<void(Database&)>& look) const {
-  const std::lock_guard lock(using_);
-  look(database_);
-}
-
 void CaseStore::replace_tables(const std::vector<PlainTable>& tables) {
-  change(true, [&] {
+  change([&] {
     drop_plain_tables(database_);
     for (const PlainTable& table : tables) write_table(database_, table);
   });

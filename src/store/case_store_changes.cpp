@@ -6,7 +6,7 @@ namespace launchsafe::store {
 namespace {
 
 using Clock = std::chrono::steady_clock;
-constexpr auto batch_time = std::chrono::seconds(1);  ///< of changes that can be made again
+constexpr auto status_pause = std::chrono::seconds(1);  ///< between two texts of status.json
 
 constexpr std::array states{"done", "failed", "timed-out", "interrupted"};  // in the order of CaseState
 
@@ -63,15 +63,12 @@ void CaseStore::take_over(const std::vector<std::filesystem::path>& others) {
   for (const std::filesystem::path& other : others) of_results(other, [&] { database_.take_rows_of(other); });
 }
 
-void CaseStore::change(bool at_once, const std::function<void()>& make) try {
+void CaseStore::change(const std::function<void()>& make) try {
   const std::lock_guard lock(using_);
   if (failure_) return;
-  if (!database_.in_transaction()) {
-    database_.run("BEGIN IMMEDIATE");
-    batch_began_ = Clock::now();
-  }
+  database_.run("BEGIN IMMEDIATE");
   make();
-  if (at_once || Clock::now() - batch_began_ >= batch_time) database_.run("COMMIT");
+  database_.run("COMMIT");
 } catch (const Error& error) {
   fail(error);
 }
@@ -86,19 +83,9 @@ void CaseStore::fail(const Error& error) {
   if (on_failure_) on_failure_(error);
 }
 
-MaybeError CaseStore::failure() const {
+MaybeError CaseStore::flush() const {
   const std::lock_guard lock(using_);
   return failure_;
-}
-
-MaybeError CaseStore::flush() {
-  bool is_pending = false;
-  {
-    const std::lock_guard lock(using_);
-    is_pending = database_.in_transaction();
-  }
-  if (is_pending) change(true, [] {});
-  return failure();
 }
 
 std::optional<RunRecord> CaseStore::record_of(const std::string& hash) const {
@@ -108,7 +95,7 @@ std::optional<RunRecord> CaseStore::record_of(const std::string& hash) const {
 }
 
 void CaseStore::put(const RunRecord& record) {
-  change(true, [&] { put_record(database_, record); });
+  change([&] { put_record(database_, record); });
 }
 
 MaybeError CaseStore::take_file(const std::filesystem::path& file, const std::string& hash) {
@@ -128,7 +115,7 @@ void CaseStore::fill_in(RunRecord& record) const {
 void CaseStore::tell_progress(nlohmann::ordered_json progress, bool at_once) {
   const std::lock_guard lock(using_);
   progress_ = std::make_shared<const nlohmann::ordered_json>(std::move(progress));
-  if (!at_once && Clock::now() - status_written_ < batch_time) return;
+  if (!at_once && Clock::now() - status_written_ < status_pause) return;
   status_written_ = Clock::now();
   write_status();
 }

@@ -198,10 +198,6 @@ void Database::try_to_run(const char* statement) {
   sqlite3_exec(handle_.get(), statement, nullptr, nullptr, nullptr);
 }
 
-bool Database::has_table(const std::string& name) {
-  return !rows("SELECT 1 FROM sqlite_schema WHERE name = ?", {name}).empty();
-}
-
 bool Database::in_transaction() const { return sqlite3_get_autocommit(handle_.get()) == 0; }
 
 void Database::roll_back() { try_to_run("ROLLBACK"); }
@@ -210,31 +206,17 @@ void Database::take_rows_of(const std::filesystem::path& other) {
   run("ATTACH ':memory:' AS other");
   try {
     copy_into("other", other);
-    take_attached_rows();
+    // A writer that was killed at its beginning has left no table.
+    if (!rows("SELECT 1 FROM other.sqlite_schema WHERE name = 'stored_runs'").empty())
+      run("INSERT OR REPLACE INTO main.stored_runs SELECT theirs.* FROM other.stored_runs AS theirs "
+          "LEFT JOIN main.stored_runs AS ours USING (hash) WHERE ours.hash IS NULL OR "
+          "(theirs.state = 'done') > (ours.state = 'done') OR ((theirs.state = 'done') = "
+          "(ours.state = 'done') AND theirs.end_time > ours.end_time)");
   } catch (const Error&) {
-    if (in_transaction()) roll_back();
     try_to_run("DETACH other");
     throw;
   }
   run("DETACH other");
-}
-
-void Database::take_attached_rows() {
-  const auto tables =
-      rows("SELECT name, sql FROM other.sqlite_schema WHERE type = 'table' AND name GLOB 'stored_*'");
-  run("BEGIN IMMEDIATE");
-  for (const SqlRow& table : tables) {
-    const auto name = std::get<std::string>(table[0]);
-    if (!has_table(name)) run(std::get<std::string>(table[1]));
-    const std::string newer =
-        "INSERT OR REPLACE INTO main.stored_runs SELECT theirs.* FROM other.stored_runs AS theirs LEFT JOIN "
-        "main.stored_runs AS ours USING (hash) WHERE ours.hash IS NULL OR (theirs.state = 'done') > "
-        "(ours.state "
-        "= 'done') OR ((theirs.state = 'done') = (ours.state = 'done') AND theirs.end_time > ours.end_time)";
-    const std::string more = fmt::format("INSERT OR IGNORE INTO main.{0} SELECT * FROM other.{0}", name);
-    run(name == "stored_runs" ? newer : more);
-  }
-  run("COMMIT");
 }
 
 }  // namespace launchsafe::store

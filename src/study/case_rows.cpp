@@ -32,10 +32,9 @@ std::vector<Remark> extrapolations_of(const Study& study, const StudyCase& input
   if (input.scene.constants == nullptr) return {{"constants", "none were fitted", false, {}}};
   return of_each(scene::outside_of_range(*input.scene.constants, input.scene.scene),
                  [&](const scene::OutsideOfRange& each) {
-                   return Remark{each.name, fmt::format("{}, fitted {}", each.found, each.allowed),
-                                 each.acceptable,
-                                 each.acceptable ? reason_of(study.accepted_extrapolation, each.name)
-                                                 : std::string{}};
+                   return Remark{
+                       each.name, fmt::format("{}, fitted {}", each.found, each.allowed), each.acceptable,
+                       each.acceptable ? reason_of(study.accepted_extrapolation, each.name) : std::string{}};
                  });
 }
 

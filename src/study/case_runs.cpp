@@ -22,8 +22,8 @@ std::vector<double> launched_gaps(const StudyFile& study, const StudyCase& input
 constexpr std::size_t most_planned_before = 512;
 
 CaseRun run_of(const StudyCase& input, const SideLaunch& launch) {
-  constexpr std::array words{"", "through ignition", "raised load", "companion", "cells of constants",
-                             "constants"};
+  constexpr std::array words{"",          "through ignition",   "raised load",
+                             "companion", "cells of constants", "constants"};
   return mechanics_run(launch.scene(input),
                        fmt::format("{}, {}{}{}", input.label, words.at(static_cast<std::size_t>(launch.part)),
                                    launch.name.empty() ? "" : " ", launch.name));

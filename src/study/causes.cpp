@@ -151,7 +151,9 @@ struct CauseFinder {
     }
     if (has_other_cells(input)) {
       const BottomTrace* fitted = trace_of(Part::cells_of_constants);
-      error += fitted == nullptr ? math::not_a_number : std::abs(std::min(gap_of(skin, *fitted), study.end_of_search()) - critical_gap);
+      error += fitted == nullptr
+                   ? math::not_a_number
+                   : std::abs(std::min(gap_of(skin, *fitted), study.end_of_search()) - critical_gap);
     }
     return {Cause::numerics, error + gap_accuracy, error + gap_accuracy};
   }
@@ -169,7 +171,8 @@ struct CauseFinder {
           Scene scene = input.scene.scene;
           for (std::size_t i = 0; i < size; ++i) {
             const auto& key = *scene::find_key(scene::scene_keys(), of_skin.keys[i]);
-            key.set(scene, std::get<double>(key.get(scene)) * std::exp(deviations * (*factor)[i * size + axis]));
+            key.set(scene,
+                    std::get<double>(key.get(scene)) * std::exp(deviations * (*factor)[i * size + axis]));
           }
           return gap_of(surface::skin_model(scene), own);
         };
@@ -300,8 +303,8 @@ std::string incomplete_launches(const std::vector<FinishedRun>& runs) {
   std::vector<std::string> texts;
   for (const FinishedRun& run : runs)
     if (run.part != Part::own && run.part != Part::through_ignition && !run.failure.empty())
-      texts.push_back(fmt::format("{}{}{} did not complete: {}", title_of(run.part), run.name.empty() ? "" : " ",
-                                  run.name, run.failure));
+      texts.push_back(fmt::format("{}{}{} did not complete: {}", title_of(run.part),
+                                  run.name.empty() ? "" : " ", run.name, run.failure));
   return fmt::format("{}", fmt::join(texts, "; "));
 }
 

@@ -49,9 +49,9 @@ std::string rule_text(const CaseRow& of_case, const GapRow& gap) {
                          centimetres_of(of_case.critical.value));
     case ReasonCode::within_bounds:
       if (gap.ignition_after_launch) return "ignition after the launch";
-      return of_case.bounds.at_least > 0.0
-                 ? fmt::format("the critical gap may be as small as {}", centimetres_of(of_case.bounds.at_least))
-                 : "the launch may ignite without a gap";
+      return of_case.bounds.at_least > 0.0 ? fmt::format("the critical gap may be as small as {}",
+                                                         centimetres_of(of_case.bounds.at_least))
+                                           : "the launch may ignite without a gap";
     case ReasonCode::extrapolated:
       return "outside of the range of the constants: " + joined_texts(of_case.extrapolated);
     case ReasonCode::below_bound:
@@ -77,7 +77,8 @@ Line line_through(const char* name, double intercept, double slope, const std::v
 
 const std::vector<CauseTraits>& all_causes() {
   static const std::vector<CauseTraits> causes{
-      {Cause::peak_pressure, "peak_pressure", "peak pressure", true, "a measured spread of the peak pressure"},
+      {Cause::peak_pressure, "peak_pressure", "peak pressure", true,
+       "a measured spread of the peak pressure"},
       {Cause::pulse_length, "pulse_length", "length of the pulse", true, "measured curves of several rounds"},
       {Cause::initial_temperature, "initial_temperature", "initial temperature", true,
        "a narrower range of temperatures"},

@@ -88,14 +88,6 @@ void check_load_axes(const StudyFile& study) {
   for (const Axis& axis : study.study.axes) check_load_axis(study, axis.study_key, axis.key.name);
 }
 
-void add_axis(StudyFile& study, const std::string& name, const std::string& study_key,
-              std::vector<double> values) {
-  if (values.empty()) return;
-  KeyDescription key = varied_key(study, name, study_key, place_of_key(study, study_key));
-  check_twice(study, study_key, key.dimension, values);
-  study.study.axes.push_back({name_of_axis(key.name), study_key, std::move(key), std::move(values)});
-}
-
 void check_free(const StudyFile& study, const std::string& scene_key, const Place& place,
                 const std::string& faulty_key) {
   if (study.overrides.contains(scene_key))

@@ -180,14 +180,6 @@ scene::Expected<scene::SceneFile> with_changes(const scene::SceneFile& scene,
   return error;
 }
 
-void set_keys(StudyFile& study, const std::map<std::string, scene::Value>& values,
-              const std::string& study_key) {
-  std::vector<Change> changes;
-  for (const auto& [key, value] : values)
-    changes.push_back({key, value, place_of_key(study, study_key), study_key});
-  study.scene = with_changes(study.scene, changes).or_throw();
-}
-
 StudyCase case_of(std::string label, SceneFile scene) {
   const scene::Scene& s = scene.scene;
   StudyCase made;

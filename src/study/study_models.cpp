@@ -33,9 +33,8 @@ void check_constants(const StudyFile& study) {
   const scene::SceneFile& file = study.scene;
   if (!study.study.kind.gives_verdicts || file.constants == nullptr) return;
   const bool has_curve = !file.scene.load.curve_time.empty();
-  const std::string allowed =
-      fmt::format("no such key where verdicts are given: it stands in the constants \"{}\" alone",
-                  file.constants->name);
+  const std::string allowed = fmt::format(
+      "no such key where verdicts are given: it stands in the constants \"{}\" alone", file.constants->name);
   for (const std::string& key : keys_of_constants(file)) {
     if (has_curve && key.starts_with("load.")) continue;
     if (const auto given = file.given.find(key); given != file.given.end() && !given->second.of_material)

@@ -62,13 +62,6 @@ bool are_alike(const BottomTrace& a, const BottomTrace& b) {
 
 }  // namespace
 
-BottomTrace thinned(const BottomTrace& trace) {
-  std::vector<std::size_t> kept;
-  for (std::size_t sample = 0; sample < trace.samples(); sample += 2) kept.push_back(sample);
-  if (trace.samples() % 2 == 0 && trace.samples() > 0) kept.push_back(trace.samples() - 1);
-  return with_samples(trace, kept);
-}
-
 BottomTrace of_rings(BottomTrace trace) {
   const std::vector<Station> stations = trace.stations;
   std::erase_if(trace.stations, &Station::observation);

@@ -81,7 +81,9 @@ TEST_F(HostileFileProgram, WhatIsNoRegularFileIsRefusedAtOnce) {
     write("study.toml", "kind = \"critical-gap\"\nscene = \"" + file + "\"\n");
     expect_refused({"study", "study.toml", "-o", "out"}, {kind});
     write("scene.toml", tiny_scene);
-    write("study.toml", "kind = \"critical-gap\"\nscene = \"scene.toml\"\nearly_time = \"0.03 ms\"\nreferences = \"" + file + "\"\n");
+    write("study.toml",
+          "kind = \"critical-gap\"\nscene = \"scene.toml\"\nearly_time = \"0.03 ms\"\nreferences = \"" +
+              file + "\"\n");
     expect_refused({"study", "study.toml", "-o", "out"}, {"references"});
   }
 }

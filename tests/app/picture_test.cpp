@@ -15,10 +15,10 @@ class HangingPicture : public StoredStudy {
     std::filesystem::permissions(folder() / "bin/gnuplot", std::filesystem::perms::owner_all);
     const std::string path = (folder() / "bin").string() + ":" + std::getenv("PATH");
     before_start([path] { ::setenv("PATH", path.c_str(), 1); });
-    write(
-        "study.toml",
-        "kind = \"critical-gap\"\nscene = \"shell.toml\"\nearly_time = "
-        "\"0.03 ms\"\nuncertainty.peak_pressure = \"0 %\"\nnumerics = { value = \"2 K\", because = \"two meshes of it\" }\nconfirm = false\n");
+    write("study.toml",
+          "kind = \"critical-gap\"\nscene = \"shell.toml\"\nearly_time = "
+          "\"0.03 ms\"\nuncertainty.peak_pressure = \"0 %\"\nnumerics = { value = \"2 K\", because = \"two "
+          "meshes of it\" }\nconfirm = false\n");
   }
 };
 

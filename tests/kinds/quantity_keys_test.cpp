@@ -86,14 +86,14 @@ TEST(QuantityKeys, EndWithTheUnitAndAreTheSameInEveryTable) {
   EXPECT_TRUE(units.contains("temperature_max_K"));
 }
 
-/// Those that depend on the study: an axis, or a column for every gap, mesh, instant or variant.
+/// Those that depend on the study: an axis, or a column for every gap, mesh or instant.
 bool depends_on_study(const std::string& key) {
   const bool is_axis = std::ranges::any_of(scene::scene_keys(), [&key](const auto& each) {
     std::string name = each.name;
     std::ranges::replace(name, '.', '_');
     return key.starts_with(name);
   });
-  return is_axis || key.find_first_of("0123456789") != std::string::npos || key == "variant";
+  return is_axis || key.find_first_of("0123456789") != std::string::npos;
 }
 
 TEST(QuantityKeys, EveryColumnHasAMeaningAndStandsInTheReferenceOfResults) {

@@ -51,7 +51,8 @@ TEST(ReadVary, MakesTheProductOfTheAxesInTheOrderWritten) {
   EXPECT_EQ(study.study.axes[2].values, (std::vector<double>{0.5, 0.4, 0.3}));
   ASSERT_EQ(study.cases.size(), 12u);
   const StudyCase& second = study.cases[1];
-  EXPECT_EQ(second.label, "peak_pressure 400 MPa, flaw_size 0.1 cm, charge.sliding_friction 0.4, crack_radius 30 µm");
+  EXPECT_EQ(second.label,
+            "peak_pressure 400 MPa, flaw_size 0.1 cm, charge.sliding_friction 0.4, crack_radius 30 µm");
   EXPECT_EQ(second.coordinates, (std::vector<double>{400e6, 1e-3, 0.4, 30e-6}));
   EXPECT_EQ(second.peak_pressure, 400e6);
   EXPECT_EQ(second.strength().flaw_size, 1e-3);

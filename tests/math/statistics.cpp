@@ -78,12 +78,4 @@ TEST(GridConvergence, MeshesWithoutAnOrderGiveNone) {
   EXPECT_FALSE(math::grid_convergence({1.0, 2.0, std::nan("")}, {1.0, 2.0, 4.0}).has_value());
 }
 
-// One-sided quantiles of Student's t, from tables.
-TEST(StudentFactor, IsThatOfTheNumberOfValues) {
-  EXPECT_NEAR(math::one_sided_student_factor(1, 0.95), 6.3138, 5e-5);
-  EXPECT_NEAR(math::one_sided_student_factor(7, 0.95), 1.8946, 5e-5);
-  EXPECT_NEAR(math::one_sided_student_factor(120, 0.95), 1.6577, 5e-5);
-  EXPECT_TRUE(std::isnan(math::one_sided_student_factor(0, 0.95)));
-}
-
 }  // namespace

@@ -107,7 +107,8 @@ TEST(ConstantsRange, EveryNumberOfTheChargeMakesAnotherExplosive) {
     if (value == key.get(scene.charge())) continue;  // 0
     key.set(scene.charge(), value);
     EXPECT_EQ(outside(scene), Names{"explosive"}) << key.name;
-    EXPECT_NE(outside_of_range(fitted_launch(), scene).at(0).found.find(key.name), std::string::npos) << key.name;
+    EXPECT_NE(outside_of_range(fitted_launch(), scene).at(0).found.find(key.name), std::string::npos)
+        << key.name;
     ++tried;
   }
   EXPECT_GE(tried, 20u);

@@ -42,7 +42,6 @@ TEST_F(StoreFailure, AFullDiskIsReportedOnceAndSparesWhatWasThere) {
     auto store = CaseStore::open(where(), "", failures.counter());
     if (!store) return false;
     for (int number = 2; number < 6; ++number) save(**store, number);
-    save_answer(**store, 1, "later");
     const MaybeError error = (*store)->flush();
     save(**store, 6);
     return error && error->kind == Error::Kind::write_failed && failures.calls == 1 &&
@@ -55,7 +54,6 @@ TEST_F(StoreFailure, AFullDiskIsReportedOnceAndSparesWhatWasThere) {
   EXPECT_EQ(store->records().size(), 2U);
   for (int number = 0; number < 2; ++number)
     expect_same(result_of(number), *store->load(identity_of(number).hash()));
-  EXPECT_FALSE(answer_in(*store, 1));
 }
 
 TEST_F(StoreFailure, AResultsFileThatIsFullHurtsNoRowBefore) {
@@ -87,14 +85,12 @@ TEST_F(StoreFailure, AResultsFileThatIsFullHurtsNoRowBefore) {
 
 // --- a kill ---
 
-/// Saves and answers until it is killed; says so once the first is on disk.
+/// Saves until it is killed; says so once the first is on disk.
 [[noreturn]] void work_forever(const std::filesystem::path& folder, int first, int report) {
   const auto store = CaseStore::open(folder);
   if (!store) ::_exit(1);
   for (int number = first;; ++number) {
     save(**store, number);
-    save_answer(**store, number, std::to_string(number));
-    if (number % 3 == 0) (*store)->flush();
     if (number == first && ((*store)->flush() || ::write(report, "y", 1) != 1)) ::_exit(1);
   }
 }

@@ -14,13 +14,12 @@ class Import : public StoreFixture {
  protected:
   std::filesystem::path there() const { return folder() / "other"; }
 
-  /// Another folder with the cases 0 to 2, an attempt that failed, and an answer.
+  /// Another folder with the cases 0 to 2 and an attempt that failed.
   void SetUp() override {
     StoreFixture::SetUp();
     const auto other = opened_at(there(), "1-of-2");
     for (int number = 0; number < 3; ++number) save(*other, number);
     note(*other, 5, CaseState::timed_out);
-    save_answer(*other, 1, "of another folder");
   }
 
   static void note(CaseStore& store, int number, CaseState state) {
@@ -36,7 +35,7 @@ class Import : public StoreFixture {
   }
 };
 
-TEST_F(Import, CopiesWholeResultsWithTheirEntriesAndAnswers) {
+TEST_F(Import, CopiesWholeResultsWithTheirEntries) {
   {
     const auto store = opened();
     save(*store, 1);
@@ -51,7 +50,6 @@ TEST_F(Import, CopiesWholeResultsWithTheirEntriesAndAnswers) {
   EXPECT_EQ(store->load(identity_of(0).hash())->mechanics.wall_time, 61.5);
   EXPECT_EQ(store->record_of(identity_of(0).hash())->label, "case 0");
   EXPECT_EQ(store->record_of(identity_of(5).hash())->state, CaseState::timed_out);
-  EXPECT_EQ(answer_in(*store, 1), "of another folder");
   EXPECT_EQ(*read_file(file_of(0)), *read_file(file_there(0)));
 }
 

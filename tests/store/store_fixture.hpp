@@ -35,23 +35,6 @@ inline void save(store::CaseStore& store, int number) {
   store.save(identity_of(number), sample_scene(), result_of(number), record_of(number));
 }
 
-/// An answer of two columns, as a module above the store keeps its own.
-inline void save_answer(store::CaseStore& store, int number, const std::string& text) {
-  store.write([&](store::Database& database) {
-    database.run("CREATE TABLE IF NOT EXISTS stored_marks (mark INTEGER PRIMARY KEY, text TEXT) STRICT");
-    database.run("INSERT OR REPLACE INTO stored_marks VALUES (?, ?)", {std::int64_t{number}, text});
-  });
-}
-inline std::optional<std::string> answer_in(const store::CaseStore& store, int number) {
-  std::optional<std::string> text;
-  store.read([&](store::Database& database) {
-    if (!database.has_table("stored_marks")) return;
-    const auto rows = database.rows("SELECT text FROM stored_marks WHERE mark = ?", {std::int64_t{number}});
-    if (!rows.empty()) text = std::get<std::string>(rows.front().front());
-  });
-  return text;
-}
-
 class StoreFixture : public TemporaryFolder {
  protected:
   static constexpr int model_version = scene::model_version;

@@ -101,9 +101,6 @@ TEST(SkinHistory, SamplingErrorIsFourthOrder) {
   const double reference = temperature(3200);
   EXPECT_LE(std::abs(temperature(100) - reference), 1e-3);
   EXPECT_LE(std::abs(temperature(800) - reference), 1e-5);
-  const trace::BottomTrace trace = smooth_launch(900, 0, 0.0);
-  EXPECT_NEAR(last(integrate_skin(model, trace::thinned(trace), 3e-4), trace::thinned(trace), 0),
-              last(integrate_skin(model, trace, 3e-4), trace, 0), 1e-4);
 }
 
 TEST(SkinHistory, TracedTemperaturesAreThoseOfFineCalls) {

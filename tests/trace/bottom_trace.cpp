@@ -35,24 +35,6 @@ double integral(const BottomTrace& trace) {
   return total;
 }
 
-TEST(ThinnedTrace, KeepsEverySecondSampleAndTheLast) {
-  for (const std::size_t samples : {1, 2, 3, 8, 9}) {
-    const BottomTrace whole = example(samples), half = thinned(whole);
-    EXPECT_EQ(half.samples(), samples / 2 + 1);
-    EXPECT_EQ(half.time.front(), whole.time.front());
-    EXPECT_EQ(half.time.back(), whole.time.back());
-    EXPECT_EQ(half.friction[0].size(), half.samples() * 2);
-    EXPECT_EQ(half.friction[0].back(), whole.friction[0].back());
-  }
-}
-
-TEST(ThinnedTrace, KeepsTheIntegralOfThePressure) {
-  for (const std::size_t samples : {2, 5, 8, 40}) {
-    const BottomTrace trace = example(samples);
-    EXPECT_NEAR(integral(thinned(trace)), integral(trace), 1e-12 * integral(trace));
-  }
-}
-
 TEST(Trace, OfRingsHasNoObservationPoints) {
   const BottomTrace whole = example(5), rings = of_rings(whole);
   ASSERT_EQ(rings.stations.size(), 1u);
@@ -73,14 +55,6 @@ TEST(Trace, UntilATimeEndsWithTheLastSampleBefore) {
     EXPECT_EQ(each.friction[0].size(), 12u);
   }
   EXPECT_EQ(until(whole, 2.0 * whole.time.back()).samples(), 9u);
-}
-
-TEST(ThinnedTrace, OfNothingIsNothing) { EXPECT_EQ(thinned(BottomTrace{}).samples(), 0u); }
-
-TEST(ThinnedTrace, LeavesOutAClosureThatWasNotTraced) {
-  BottomTrace trace = example(5);
-  trace.friction[0].clear();
-  EXPECT_TRUE(thinned(trace).friction[0].empty());
 }
 
 TEST(Interpolate, IsLinearBetweenSamplesAndConstantOutside) {

@@ -43,10 +43,6 @@ std::optional<LeastSquares> least_squares(const std::vector<std::vector<double>>
 /// Straight line y = coefficients[0] + coefficients[1] x.
 std::optional<LeastSquares> fit_line(const std::vector<double>& x, const std::vector<double>& y);
 
-/// Student's factor: with probability `level` a further value, of a population about 0 of whose values n >= 1
-/// have a root mean square s, is below the factor times s. One-sided; NaN otherwise.
-double one_sided_student_factor(int n, double level);
-
 /// Discretisation uncertainty from three systematically refined meshes (Celik et al., J. Fluids Eng. 130,
 /// 2008).
 struct GridConvergence {

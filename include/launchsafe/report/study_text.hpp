@@ -107,8 +107,6 @@ double value_of(const study::CriticalGap& gap);
 std::optional<Measured> measured_gap(const study::CaseRow& of_case);
 /// "0.039 ± 0.010 cm"; `reads_as` where the bounds are not known.
 std::string measured_text(const study::CaseRow& of_case);
-/// "0.0395 cm", "ignites without a gap", "no ignition", "not known".
-std::string gap_text(study::GapOrBound gap);
 /// "0.0395 cm", "> 1 cm", "ignites without a gap", "several, the first at 0.0395 cm", "unknown".
 std::string reads_as(const study::CriticalGap& gap);
 

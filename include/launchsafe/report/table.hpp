@@ -73,10 +73,9 @@ std::string uncertain_text(double value, int digits = 2);
 
 using keys::always, keys::Audience, keys::Cell, keys::count, keys::for_people, keys::for_programs, keys::Form,
     keys::headed, keys::known, keys::named, keys::Notation, keys::of_part, keys::Quantities, keys::Quantity;
-using keys::centimetre, keys::cubic_centimetre, keys::gram, keys::joule, keys::kelvin,
-    keys::kelvin_per_centimetre, keys::kilojoule, keys::kilojoule_per_area, keys::megabyte, keys::megapascal,
-    keys::metre_per_second, keys::micrometre, keys::millimetre, keys::millisecond, keys::per_second,
-    keys::percent, keys::second;
+using keys::centimetre, keys::cubic_centimetre, keys::gram, keys::kelvin, keys::kelvin_per_centimetre,
+    keys::kilojoule, keys::kilojoule_per_area, keys::megabyte, keys::megapascal, keys::micrometre,
+    keys::millimetre, keys::millisecond, keys::per_second, keys::percent, keys::second;
 
 /// What is said of the cells of a column: those of a table have its unit already.
 using Column = keys::QuantityDescription;

@@ -239,11 +239,6 @@ struct MechanicsResult {
 /// 0 for a material without particles.
 double mass_of(const MechanicsResult& mechanics, std::string_view material);
 
-/// The largest of a value of nodes on the end of the charge at `bottom` (m): 0 where nothing slides there,
-/// NaN where one is.
-double largest_at_bottom(const MechanicsResult& mechanics, double bottom,
-                         std::vector<double> InterfaceResult::*values);
-
 /// Largest absolute energy drift over the monitor's history, as a share of the run's largest energy (in the
 /// first moments all energies are next to nothing); NaN without one.
 double largest_energy_drift(const MechanicsResult& mechanics);

@@ -70,8 +70,8 @@ struct OutsideOfRange {
   std::string found, allowed;  ///< for people
   bool acceptable = true;
 };
-/// Those of constants that a scene lies outside of, in the order of range_keys; an interval that the constants
-/// do not state holds for nothing.
+/// Those of constants that a scene lies outside of, in the order of range_keys; an interval that the
+/// constants do not state holds for nothing.
 std::vector<OutsideOfRange> outside_of_range(const Constants& constants, const Scene& scene);
 
 /// The fitted constants that act on the skin alone, and the covariance of their logarithms, row by row, while

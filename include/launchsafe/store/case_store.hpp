@@ -1,7 +1,7 @@
 // The folder of a study: one results file, and one file a case beside it. Killing the process at any instant
 // loses at most what was in flight.
 //
-//   DIR/study[.PART].db     SQLite: runs, answers drawn from them, events, and the tables of the report
+//   DIR/study[.PART].db     SQLite: runs, and the tables of the report
 //   DIR/cases/HASH.h5       the result of one case, named by what determines it, whole or not there
 //   DIR/status[.PART].json  who writes and how far it is; for whoever watches
 //
@@ -93,7 +93,7 @@ class CaseStore {
   /// Errors: conflict (a process writes there), corrupt,
   /// unreadable.
   static Result<std::unique_ptr<CaseStore>> open_to_read(const std::filesystem::path& folder);
-  /// Flushes, then releases the results file.
+  /// Releases the results file.
   ~CaseStore();
   CaseStore(const CaseStore&) = delete;
   CaseStore& operator=(const CaseStore&) = delete;
@@ -120,16 +120,11 @@ class CaseStore {
   /// Records an attempt that left no result.
   void note(RunRecord record);
 
-  /// Changes tables of the caller's in the results file. What can be drawn again is committed together with
-  /// what comes after it, at the latest with the first change after a second, or by `flush`.
-  void write(const std::function<void(Database&)>& make);
-  /// Looks into them.
-  void read(const std::function<void(Database&)>& look) const;
   /// Puts these in the place of all tables for other programs, at once.
   void replace_tables(const std::vector<PlainTable>& tables);
 
-  /// Commits what is pending. The first thing that could not be written, if any.
-  MaybeError flush();
+  /// The first thing that could not be written, if any; all else that was saved or noted is on disk.
+  MaybeError flush() const;
 
   /// Members for status.json besides those of the store: how far the runs are that the process was asked for.
   /// Written once a second at most, unless `at_once`.
@@ -139,7 +134,7 @@ class CaseStore {
   const std::filesystem::path& folder() const { return names_.folder; }
 
   /// Takes over what another folder holds and this one does not: case files (as a second name of the same
-  /// file where the file system can), their records, answers; of cases that are done in neither, the newest
+  /// file where the file system can), their records; of cases that are done in neither, the newest
   /// attempt. Errors: conflict (a process writes there; no record was taken), missing (no such store),
   /// corrupt, unreadable, write_failed.
   struct Imported {
@@ -153,10 +148,9 @@ class CaseStore {
   /// Makes the table of runs where it is missing, and takes the rows of these files.
   void take_over(const std::vector<std::filesystem::path>& others);
   /// Makes a change, alone among the threads, unless something failed before; the first failure is kept and
-  /// told. `at_once`: it is on disk before this returns.
-  void change(bool at_once, const std::function<void()>& make);
+  /// told. It is on disk before this returns.
+  void change(const std::function<void()>& make);
   void fail(const Error& error);
-  MaybeError failure() const;
 
   void put(const RunRecord& record);
   /// Takes over the result of another folder: a second name of its file where the file system can.
@@ -177,7 +171,7 @@ class CaseStore {
   std::vector<std::string> remarks_;
   MaybeError failure_;
   std::set<std::string> damaged_;  ///< hashes
-  std::chrono::steady_clock::time_point batch_began_, status_written_;
+  std::chrono::steady_clock::time_point status_written_;
 };
 
 /// The results files in a folder, of the whole and of parts.

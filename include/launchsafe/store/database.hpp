@@ -40,10 +40,8 @@ class Database {
   std::vector<SqlRow> rows(const std::string& statement, const SqlRow& values = {});
   /// The same for a statement that gives none.
   void run(const std::string& statement, const SqlRow& values = {}) { rows(statement, values); }
-  bool has_table(const std::string& name);
 
-  /// Takes the rows of another file: the newer ones of `stored_runs`, of which a result beats an attempt
-  /// without one, and what it has more in the other `stored_` tables.
+  /// Takes the newer rows of `stored_runs` of another file, of which a result beats an attempt without one.
   void take_rows_of(const std::filesystem::path& other);
 
   /// Whether changes since the last commit are pending.
@@ -66,7 +64,6 @@ class Database {
   void copy_into(const std::string& schema, const std::filesystem::path& source);
   void check_format();
   void lock_and_prepare();
-  void take_attached_rows();
   sqlite3_stmt* prepared(const std::string& statement);
   /// Runs a statement whose failure is of no consequence.
   void try_to_run(const char* statement);

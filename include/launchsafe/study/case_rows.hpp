@@ -15,9 +15,9 @@ struct Confirmation {
   bool ran = false;
   bool completed = false;
   bool ignited = false;
-  double maximum_temperature = math::not_a_number;  ///< K, of the hottest station
-  RunOutcome outcome = RunOutcome::ran;             ///< of its run
-  std::string failure = {};                         ///< why it did not complete
+  double maximum_temperature = math::not_a_number;        ///< K, of the hottest station
+  RunOutcome outcome = RunOutcome::ran;                   ///< of its run
+  std::string failure = {};                               ///< why it did not complete
   std::optional<run::CombustionHistory> combustion = {};  ///< of one that ignited, with two-way coupling
   bool agrees() const { return completed && ignited == expected_ignition; }
 };

@@ -108,7 +108,8 @@ struct GapRow {
   Peak early;                          ///< the same at Study::early_time
   double spread = math::not_a_number;  ///< K, over the stations at scene::read_time
   double margin = math::not_a_number;  ///< K, to the ignition temperature
-  double heated = math::not_a_number;  ///< K, T max of a skin that air and friction heat and that never reacts
+  double heated =
+      math::not_a_number;  ///< K, T max of a skin that air and friction heat and that never reacts
   /// K, of T max: what the bounds of the critical gap are at this gap by the slope of T max over the gap; for
   /// display. NaN where there are no bounds.
   double uncertainty = math::not_a_number;
@@ -146,7 +147,8 @@ struct CaseRow {
   std::vector<Remark> extrapolated;  ///< intervals of the constants that the case lies outside of
   CriticalGap critical;
   std::vector<CauseShare> causes;
-  std::string incomplete;  ///< launches beside its own that did not complete, for want of which it has no bounds
+  std::string
+      incomplete;  ///< launches beside its own that did not complete, for want of which it has no bounds
   GapBounds bounds;
   std::vector<ModelGap> models;  ///< in the order of Study::models
   std::vector<GapRow> gaps;      ///< in the order of the study's gaps
@@ -165,7 +167,8 @@ struct CaseRow {
 /// - warning, INDETERMINATE: a warning that nobody accepts;
 /// - no-critical-gap, INDETERMINATE: ignition comes and goes with the gap;
 /// - within-bounds, INDETERMINATE: the gap is not thinner than the lower bound of the critical gap;
-/// - extrapolated, INDETERMINATE: the case lies outside of an interval of its constants, which nobody accepts;
+/// - extrapolated, INDETERMINATE: the case lies outside of an interval of its constants, which nobody
+/// accepts;
 /// - below-bound, SAFE.
 Judgement judge(const CaseRow& of_case, const GapRow& gap);
 

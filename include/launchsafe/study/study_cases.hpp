@@ -64,20 +64,12 @@ void read_rows(const toml::table& root, const std::string& name, const std::vect
 std::string read_named_file(const StudyFile& study, const std::filesystem::path& folder,
                             const std::string& key, const std::string& name, const std::string& wanted);
 
-/// The record in such a file, noted as one that the study rests on.
-template <class Parse>
-auto read_named_record(StudyFile& study, const std::filesystem::path& folder, const std::string& key,
-                       const std::string& name, const std::string& wanted, Parse parse) {
-  const std::string text = read_named_file(study, folder, key, name, wanted);
-  study.records.push_back(store::sha256(text));
-  return parse(text, (folder / name).string()).or_throw();
-}
-
 /// Gives the scene of a study the constants that the study names, if it names some.
 void use_constants(StudyFile& study, const std::filesystem::path& folder);
 
-/// Refuses a scene, or a study, that states or varies a key that its constants have, where verdicts are given:
-/// a constants file is the one place of these. A steel may be stated, beyond the interval of the constants.
+/// Refuses a scene, or a study, that states or varies a key that its constants have, where verdicts are
+/// given: a constants file is the one place of these. A steel may be stated, beyond the interval of the
+/// constants.
 void check_constants(const StudyFile& study);
 
 /// Reads the constants files that the study names as other models. Refused are: none there, one without
@@ -89,10 +81,6 @@ void check_models(const StudyFile& study);
 std::string name_of_model(const scene::Constants& model);
 /// The scene of a case under other constants; what its scene and the study state stays.
 scene::Scene scene_of_model(const StudyCase& input, const std::shared_ptr<const scene::Constants>& model);
-
-/// Gives scene keys of the study's scene other values, which `study_key` of the study asks for.
-void set_keys(StudyFile& study, const std::map<std::string, scene::Value>& values,
-              const std::string& study_key);
 
 using scene::Leaf;
 /// All keys of a table and of the tables in it, as people wrote them.
@@ -114,11 +102,6 @@ scene::KeyDescription varied_key(const StudyFile& study, const std::string& name
 
 /// The value of a scene key that takes one number, SI.
 double number_in(const scene::SceneFile& file, const std::string& key);
-
-/// Adds an axis over those values (SI) of a key, by its short or full name; none where there are no values.
-/// Refuses one that stands twice.
-void add_axis(StudyFile& study, const std::string& name, const std::string& study_key,
-              std::vector<double> values);
 
 /// Refuses a scene key that is to vary and is fixed elsewhere, or varies already; it was asked for at a place
 /// under a name.

@@ -66,8 +66,6 @@ class Cases {
   const std::string& label(std::size_t index) const { return rows_[index].label; }
   /// Of Study::axes, SI.
   const std::vector<double>& coordinates(std::size_t index) const { return rows_[index].coordinates; }
-  /// Rather than one that follows from its coordinates.
-  bool has_own_scene(std::size_t index) const { return rows_[index].own != nullptr; }
 
   void make_with(Make make) { make_ = std::move(make); }
   void add(std::string label, std::vector<double> coordinates);
@@ -168,7 +166,7 @@ struct Study {
   /// Histories of all cases are kept for the report.
   bool in_detail = false;
 
-  std::vector<Axis> axes;     ///< of a full factorial the last is the fastest; none for other kinds
+  std::vector<Axis> axes;              ///< of a full factorial the last is the fastest; none for other kinds
   double largest_gap = widest_search;  ///< m, where the search for the critical gap ends
   /// m: beyond all gaps of the study.
   double end_of_search() const {
@@ -200,7 +198,7 @@ struct StudyFile {
   scene::SceneFile scene;                        ///< with the overrides
   /// SHA-256 of every file that the study rests on besides its scene: another one is another study.
   std::vector<std::string> records;
-  Cases cases;                 ///< in the order that the kind says
+  Cases cases;                                  ///< in the order that the kind says
   std::size_t most_cases = largest_case_count;  ///< a study with more is refused
   std::size_t confirmations_per_case = 0;       ///< coupled runs that may follow once its gaps are judged
 };

@@ -41,10 +41,6 @@ struct BottomTrace {
   }
 };
 
-/// Every second sample (the last one kept), with interval means combined by their lengths: what a trace twice
-/// as coarse would have held. Used to bound the sampling error.
-BottomTrace thinned(const BottomTrace& trace);
-
 /// The same history `factor` (> 0) times as slow: that of a pulse so much longer, as the charge responds to
 /// the pressure of a launch quasi-statically. Pressures and energies stay.
 BottomTrace stretched(BottomTrace trace, double factor);
