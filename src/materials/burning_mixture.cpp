@@ -173,7 +173,7 @@ std::optional<Parts> solve_by_bisection(const BurningMixture& mixture, const Bal
 
 }  // namespace
 
-BurningMixture::BurningMixture(const UnreactedEos& solid, double solid_density, const ProductGas& gas,
+BurningMixture::BurningMixture(const JwlParameters& solid, double solid_density, const ProductGas& gas,
                                double tension_cutoff)
     : solid_(solid), solid_density_(solid_density), gas_(gas) {
   constexpr int most_iterations = 50;

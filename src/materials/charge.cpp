@@ -2,8 +2,8 @@
 #include "launchsafe/materials/charge.hpp"
 
 namespace launchsafe::materials {
-using keys::above_to, keys::acting_on, keys::ActsOn, keys::between, keys::Dimension, keys::Key,
-    keys::overriding, keys::then, keys::usually, keys::Standing, keys::Value;
+using keys::above_to, keys::acting_on, keys::ActsOn, keys::between, keys::Dimension, keys::Key, keys::usually,
+    keys::Standing;
 
 namespace {
 
@@ -36,39 +36,6 @@ std::vector<Key<ViscoScramParameters>> crack_keys() {
                "Relaxation rates 1/tau_n of the Maxwell elements; 0 is an elastic spring.",
                &ViscoScramParameters::relaxation_rates, maxwell_elements),
   };
-}
-
-/// The equation of state of that kind. One that the charge does not have becomes its own where a key of it is
-/// set.
-template <class Eos>
-struct EosOf {
-  Eos& operator()(Charge& charge) const {
-    Eos* own = std::get_if<Eos>(&charge.eos);
-    return own != nullptr ? *own : charge.eos.emplace<Eos>();
-  }
-  const Eos& operator()(const Charge& charge) const {
-    static const Eos usual;
-    const Eos* own = std::get_if<Eos>(&charge.eos);
-    return own != nullptr ? *own : usual;
-  }
-};
-
-/// The keys of all of them. A charge has those of its own alone, and one that is given takes back what was
-/// given of the others.
-template <class... Eos>
-std::vector<Key<Charge>> keys_of_eos(const std::variant<Eos...>&) {
-  const std::vector<std::vector<Key<Charge>>> lists{
-      keys_of_part<Charge>("charge.", EosOf<Eos>{}, Eos::parameters())...};
-  std::vector<Key<Charge>> all;
-  for (std::size_t own = 0; own < lists.size(); ++own)
-    for (Key<Charge> key : lists[own]) {
-      key.is_written = [own](const Charge& charge) { return charge.eos.index() == own; };
-      for (std::size_t other = 0; other < lists.size(); ++other)
-        if (other != own)
-          for (const Key<Charge>& replaced : lists[other]) key.overrides.push_back(replaced.name);
-      all.push_back(std::move(key));
-    }
-  return all;
 }
 
 std::vector<Key<Charge>> heat_keys() {
@@ -113,7 +80,8 @@ std::vector<Key<Charge>> Charge::parameters() {
        keys::keys_of_part<Charge>("charge.", std::identity{},
                                   {number_key("density", Dimension::density, between(500, 25e3),
                                               Standing::paper, "Density before launch.", &Charge::density)}),
-       keys_of_eos(Charge{}.eos), keys_of_part<Charge>("charge.", std::identity{}, heat_keys()),
+       keys_of_part("charge.", &Charge::eos, jwl_keys()),
+       keys_of_part<Charge>("charge.", std::identity{}, heat_keys()),
        keys_of_part("kinetics.", &Charge::kinetics, acting_on(ActsOn::chemistry, kinetics_keys()))});
 }
 

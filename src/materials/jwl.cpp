@@ -77,11 +77,31 @@ bool JwlIsentrope::fit() {
   return as_exact;
 }
 
-// --- before it reacts ---
+double jwl_bulk_modulus_at_rest(const JwlParameters& m) {
+  const double pressure = cold_pressure_at_rest(m) + m.omega * m.initial_energy;
+  const double slope = m.a * std::exp(-m.r1) * (m.omega / m.r1 - m.r1 + m.omega) +
+                       m.b * std::exp(-m.r2) * (m.omega / m.r2 - m.r2 + m.omega) -
+                       m.omega * m.initial_energy;  // dp/dV at constant energy
+  return m.omega * pressure - slope;
+}
 
-namespace {
+double jwl_isentropic_energy(const JwlParameters& m, double volume) {
+  const double thermal = m.initial_energy - jwl_cold_energy(m, 1.0);
+  return jwl_cold_energy(m, volume) + thermal * std::pow(volume, -m.omega) - m.initial_energy;
+}
 
-std::vector<Key<JwlParameters>> constants_keys() {
+std::optional<ConstantsFault> fault_of(const JwlParameters& m) {
+  if (!(m.r1 > m.r2))
+    return ConstantsFault{
+        {"jwl.r2", "jwl.r1"}, fmt::format("R1 = {:.6g} and R2 = {:.6g}", m.r1, m.r2), "R1 above R2"};
+  const double bulk = jwl_bulk_modulus_at_rest(m);
+  if (bulk > 0.0) return std::nullopt;
+  return ConstantsFault{{"jwl.a", "jwl.omega", "jwl.r2", "jwl.r1", "jwl.b"},
+                        fmt::format("a JWL with a bulk modulus of {:.4g} GPa before launch", 1e-9 * bulk),
+                        "constants whose bulk modulus is above 0 GPa"};
+}
+
+std::vector<Key<JwlParameters>> jwl_keys() {
   const auto constant = [](const char* name, Dimension dimension, keys::Limits limits, const char* sentence,
                            double JwlParameters::*member) {
     return number_key(name, dimension, limits, Standing::paper, sentence, member) | then(balance);
@@ -96,39 +116,6 @@ std::vector<Key<JwlParameters>> constants_keys() {
                "w of the unreacted JWL; its initial energy follows from p(V = 1) = 0.",
                &JwlParameters::omega),
   };
-}
-
-}  // namespace
-
-double UnreactedJwl::bulk_modulus_at_rest() const {
-  const JwlParameters& m = constants;
-  const double pressure = cold_pressure_at_rest(m) + m.omega * m.initial_energy;
-  const double slope = m.a * std::exp(-m.r1) * (m.omega / m.r1 - m.r1 + m.omega) +
-                       m.b * std::exp(-m.r2) * (m.omega / m.r2 - m.r2 + m.omega) -
-                       m.omega * m.initial_energy;  // dp/dV at constant energy
-  return m.omega * pressure - slope;
-}
-
-double UnreactedJwl::energy(double volume) const {
-  const JwlParameters& m = constants;
-  const double thermal = m.initial_energy - jwl_cold_energy(m, 1.0);
-  return jwl_cold_energy(m, volume) + thermal * std::pow(volume, -m.omega) - m.initial_energy;
-}
-
-std::optional<ConstantsFault> UnreactedJwl::fault() const {
-  if (!(constants.r1 > constants.r2))
-    return ConstantsFault{{"jwl.r2", "jwl.r1"},
-                          fmt::format("R1 = {:.6g} and R2 = {:.6g}", constants.r1, constants.r2),
-                          "R1 above R2"};
-  const double bulk = bulk_modulus_at_rest();
-  if (bulk > 0.0) return std::nullopt;
-  return ConstantsFault{{"jwl.a", "jwl.omega", "jwl.r2", "jwl.r1", "jwl.b"},
-                        fmt::format("a JWL with a bulk modulus of {:.4g} GPa before launch", 1e-9 * bulk),
-                        "constants whose bulk modulus is above 0 GPa"};
-}
-
-std::vector<Key<UnreactedJwl>> UnreactedJwl::parameters() {
-  return keys_of_part("", &UnreactedJwl::constants, constants_keys());
 }
 
 }  // namespace launchsafe::materials

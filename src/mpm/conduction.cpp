@@ -154,7 +154,7 @@ Conduction::Conduction(const Simulation& simulation) {
 void Conduction::advance(Simulation& simulation, double dt) {
   Eigen::VectorXd temperature(capacity_.size());
   Eigen::Index next = 0;
-  std::as_const(simulation).for_each_body([&](const ParticleFields& p) {
+  simulation.for_each_body([&](const ParticleFields& p) {
     for_each_particle(p.lattice, next, [&](Eigen::Index number, std::size_t slot) {
       temperature[number] = p.temperature[slot];
     });

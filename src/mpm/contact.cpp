@@ -31,7 +31,7 @@ void Contact::reset(const std::vector<Nodes>& nodes) {
   pair(nodes);
   last_dt_ = 0.0;
   damping_factor_ = 1.0;
-  for (Row& row : rows_) row.normal = row.slide = row.last_slide = 0.0;
+  for (Row& row : rows_) row.normal = row.slide = 0.0;
 }
 
 ContactTotals Contact::act(std::vector<Nodes>& nodes, const StepInput& step) {
@@ -107,7 +107,6 @@ void Contact::solve_impulses(double dt) {
   const bool same_pairs = steps_ > 0;
   begin_impulses(same_pairs ? step_ratio : 0.0);
   for (Row& row : rows_) {
-    row.last_slide = row.slide;
     row.normal *= step_ratio;
     row.slide *= step_ratio;
     row.target = least_opening(row.gap) / dt;
@@ -177,39 +176,29 @@ void Contact::advance_rows(double dt) {
   double fastest = 0.0;
   for (Row& row : rows_) {
     if (!(row.area > 0.0)) continue;
-    const double work =
-        -0.5 * (row.last_slide / damping_factor_before_ + row.slide / damping_factor_) * row.sliding;
-    row.friction_work += work;
-    row.friction_heat += work / row.area;
     set_speeds(row);
     row.gap += dt * row.opening;
-    row.largest_gap = std::max(row.largest_gap, row.gap);
     row.overlap = std::max(row.overlap, -row.gap);
-    row.slid += dt * std::abs(row.sliding);
     row.slip += dt * row.sliding;
     fastest = std::max(fastest, std::abs(row.sliding));
   }
   slid_ += dt * fastest;
 }
 
-double Contact::friction_work(std::size_t face) const {
-  double work = 0.0;
-  for (std::size_t i = 0; i < faces_[face].own.indices.size(); ++i)
-    work += rows_[faces_[face].first_row + i].friction_work;
-  return work;
-}
-
-std::vector<FaceState> Contact::state_of(std::size_t face) const {
+std::vector<FaceState> Contact::state_of(std::size_t face, const std::vector<Nodes>& nodes) const {
   const Face& f = faces_[face];
+  const Nodes& own = nodes[f.own.nodes];
   const double direction = f.along_x ? -f.outward : f.outward;
   std::vector<FaceState> states;
   for (std::size_t i = 0; i < f.own.indices.size(); ++i) {
     const Row& row = rows_[f.first_row + i];
     const double per_impulse =
         row.area > 0.0 && last_dt_ > 0.0 ? 1.0 / (row.area * last_dt_ * damping_factor_) : 0.0;
-    states.push_back({f.own.rest[i], row.area, row.gap, row.normal * per_impulse,
-                      direction * row.slide * per_impulse, row.friction_heat, row.slid, direction * row.slip,
-                      row.largest_gap, row.overlap});
+    const double along = f.own.rest[i], across = f.own.across_rest;
+    states.push_back({along, (f.along_x ? along : across) + own.displacement_x[f.own.indices[i]],
+                      (f.along_x ? across : along) + own.displacement_r[f.own.indices[i]], row.area, row.gap,
+                      row.normal * per_impulse, direction * row.slide * per_impulse, direction * row.slip,
+                      row.overlap});
   }
   return states;
 }

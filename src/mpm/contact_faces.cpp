@@ -101,7 +101,6 @@ void Contact::add_face(const scene::Scene& scene, const scene::GridLines& lines,
   face.interface = static_cast<std::size_t>(&law - scene.interfaces.data());
   face.along_x = runs_along_x(side);
   face.outward = side == Side::x_end || side == Side::r_end ? 1.0 : -1.0;
-  face.measure = face.along_x ? FaceMeasure::radius_across : FaceMeasure::radius_along;
   face.first_row = rows_.size();
   face.own = face_side(lines, nodes, ties, own, side);
   face.other = face_side(lines, nodes, ties, other, opposite(side));
@@ -130,7 +129,7 @@ void Contact::pair_face(Face& face, const std::vector<Nodes>& nodes) {
       side->line.across[k] = side->across_rest + side->shift[k];
     }
   }
-  pair_faces(face.own.line, face.other.line, face.measure, paired_);
+  pair_faces(face.own.line, face.other.line, face.along_x, paired_);
   for (std::size_t i = 0; i < paired_.size(); ++i) set_row(face, i, paired_[i], rows_[face.first_row + i]);
 }
 
@@ -211,19 +210,10 @@ struct FaceCell {
   double measure_at(double place) const { return measure[0] + (measure[1] - measure[0]) * right(place); }
 };
 
-double measure_at_node(const FaceLine& line, std::size_t node, FaceMeasure measure) {
-  return measure == FaceMeasure::radius_across ? line.across[node] : line.along[node];
-}
-
-FaceCell face_cell(const FaceLine& own, const FaceLine& other, FaceMeasure measure, std::size_t first) {
-  FaceCell cell{first,
-                own.along[first],
-                own.along[first + 1],
-                {measure_at_node(own, first, measure), measure_at_node(own, first + 1, measure)},
-                0.0,
-                0.0,
-                true,
-                0};
+FaceCell face_cell(const FaceLine& own, const FaceLine& other, bool along_x, std::size_t first) {
+  const std::vector<double>& radius = along_x ? own.across : own.along;
+  FaceCell cell{
+      first, own.along[first], own.along[first + 1], {radius[first], radius[first + 1]}, 0.0, 0.0, true, 0};
   const double before = other.along.front() - cell.begin, after = cell.end - other.along.back();
   const double held = held_overhang * cell.length();
   const bool meets_begin = before <= held && cell.begin <= other.along.back() + held;
@@ -332,7 +322,7 @@ void normalise(std::vector<PairShare>& shares) {
 
 }  // namespace
 
-void pair_faces(const FaceLine& own, const FaceLine& other, FaceMeasure measure, std::vector<PairRow>& rows) {
+void pair_faces(const FaceLine& own, const FaceLine& other, bool along_x, std::vector<PairRow>& rows) {
   const std::size_t nodes = own.along.size();
   rows.resize(nodes);
   for (std::size_t i = 0; i < nodes; ++i) {
@@ -340,8 +330,8 @@ void pair_faces(const FaceLine& own, const FaceLine& other, FaceMeasure measure,
     row.own.clear();
     row.other.clear();
     row.area = row.slope = 0.0;
-    if (i > 0) add_cell(face_cell(own, other, measure, i - 1), 1, other, row);
-    if (i + 1 < nodes) add_cell(face_cell(own, other, measure, i), 0, other, row);
+    if (i > 0) add_cell(face_cell(own, other, along_x, i - 1), 1, other, row);
+    if (i + 1 < nodes) add_cell(face_cell(own, other, along_x, i), 0, other, row);
     if (!(row.area > 0.0)) {
       row.area = 0.0;
       row.own.clear();

@@ -102,7 +102,7 @@ void Simulation::add_to_energy(const StepTotals& totals, const StepInput& begin)
   energy_.charge_friction += sum(p.charge_friction);
   energy_.damping += sum(n.lost_before) + sum(n.damping) + sum(p.pic_loss);
   balance_.damping += sum(n.lost_before);
-  for (EnergyTotals* energy : {&energy_, &balance_}) {
+  for (EnergyBalance* energy : {&energy_, &balance_}) {
     energy->damping += totals.contact.way_back_loss;
     energy->contact += totals.contact.loss;
   }

@@ -226,19 +226,14 @@ void TotalLagrangian::advance_body(std::size_t index, const StepInput& input) {
       bodies_[index]);
 }
 
-/// Node rows, contact, then particle rows.
-void TotalLagrangian::run_phases(const StepInput& input) {
+StepTotals TotalLagrangian::step(const StepInput& input) {
+  load_nodes(input);
+  for (AnyBody& any : bodies_) std::visit([&](auto& body) { body.integrator.set_step(input.dt); }, any);
   for (std::size_t b = 0; b < bodies_.size(); ++b)
     for (int row = 0; row < nodes_[b].rows; ++row)
       move_row(nodes_[b], row, input, node_totals_[b][static_cast<std::size_t>(row)]);
   if (contact_->any()) contact_totals_ = contact_->act(nodes_, input);
   for (std::size_t b = 0; b < bodies_.size(); ++b) advance_body(b, input);
-}
-
-StepTotals TotalLagrangian::step(const StepInput& input) {
-  load_nodes(input);
-  for (AnyBody& any : bodies_) std::visit([&](auto& body) { body.integrator.set_step(input.dt); }, any);
-  run_phases(input);
   damped_before_ = 1.0 / input.damping_factor - 1.0;
   StepTotals totals;
   for (const auto& body : particle_totals_)

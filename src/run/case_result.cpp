@@ -27,15 +27,6 @@ std::string to_string(const LimiterCounts& counts) {
   return fmt::format("{}", fmt::join(acted, ", "));
 }
 
-double EnergyBalance::scale() const {
-  return std::max({std::abs(kinetic) + std::abs(internal) + std::abs(damping) + std::abs(contact),
-                   std::abs(external) + std::abs(body_force), 1e-300});
-}
-
-double EnergyBalance::drift() const {
-  return (kinetic + internal + damping + contact - external - body_force) / scale();
-}
-
 void add_mass(std::vector<MaterialMass>& masses, const std::string& material, double mass) {
   const auto known = std::ranges::find(masses, material, &MaterialMass::material);
   if (known == masses.end())
@@ -120,10 +111,6 @@ double least_judged_energy(const scene::Scene& scene) {
               (density * density * speed * speed);
   }
   return energy;
-}
-
-double least_judged_impulse(const scene::Scene& scene) {
-  return least_pressure * scene::base_area(scene) * scene::end_time(scene.load);
 }
 
 const std::vector<SnapshotField>& snapshot_fields() {

@@ -35,7 +35,7 @@ TraceRecorder::TraceRecorder(mpm::Simulation& simulation, const scene::Scene& sc
     for (const std::vector<Share>& shares : shares_)
       for (const Share& share : shares)
         if (share.charge == &charge) mpm::record(charge.particles, share.slot);
-  heat_.fill(std::vector<double>(trace_.stations.size(), 0.0));
+  heat_.assign(trace_.stations.size(), 0.0);
   bottom_pressure_ = measure_bottom_pressure(simulation);
   chamber_pressure_ = simulation.chamber_pressure();
   sample(simulation);
@@ -127,9 +127,7 @@ void TraceRecorder::sample(const mpm::Simulation& simulation) {
   trace_.chamber_pressure.push_back(chamber_pressure_);
   trace_.bottom_pressure.push_back(bottom_pressure_);
   trace_.mean_bottom_pressure.push_back(length > 0.0 ? bottom_integral_ / length : bottom_pressure_);
-  for (std::size_t closure = 0; closure < trace::traced_closures; ++closure)
-    for (std::size_t station = 0; station < trace_.stations.size(); ++station)
-      trace_.friction[closure].push_back(friction(closure, station));
+  trace_.friction.insert(trace_.friction.end(), heat_.begin(), heat_.end());
   interval_begin_ = simulation.time();
   bottom_integral_ = 0.0;
 }
@@ -140,14 +138,12 @@ void TraceRecorder::heat_stations() {
   for (std::size_t station = 0; station < trace_.stations.size(); ++station) {
     materials::SlidingStep step;
     for (const Share& share : shares_[station]) add(step, *share.charge, share.slot, share.weight);
-    const auto heat = materials::sliding_heat(shares_[station].front().charge->law.sliding_friction, step);
-    for (std::size_t closure = 0; closure < trace::traced_closures; ++closure)
-      heat_[closure][station] += heat[closure];
+    heat_[station] += materials::sliding_heat(shares_[station].front().charge->law.sliding_friction, step);
   }
 }
 
 SteppedSkin::SteppedSkin(const scene::Scene& scene, double gap, const TraceRecorder& recorder)
-    : model_(surface::skin_model(scene)), closure_(static_cast<std::size_t>(scene.surface.friction)) {
+    : model_(surface::skin_model(scene)) {
   history_.gap = gap;
   const std::size_t stations = recorder.trace().stations.size();
   points_.assign(stations, surface::SkinPoint{model_.initial_temperature});
@@ -177,21 +173,19 @@ void SteppedSkin::record(const TraceRecorder& recorder) {
 }
 
 double SteppedSkin::heating(const TraceRecorder& recorder, std::size_t station, double dt) {
-  if (closure_ >= trace::traced_closures) return 0.0;
+  if (model_.surface.friction == scene::FrictionClosure::none) return 0.0;
   const double before = friction_[station];
-  friction_[station] = recorder.friction(closure_, station);
+  friction_[station] = recorder.friction(station);
   return (friction_[station] - before) * model_.surface.localisation /
          (model_.charge_density * model_.specific_heat * dt);
 }
 
-BulkHeat::BulkHeat(mpm::Simulation& simulation)
-    : charge_(simulation.scene().charge()),
-      closure_(static_cast<std::size_t>(simulation.scene().surface.friction)) {
+BulkHeat::BulkHeat(mpm::Simulation& simulation) : charge_(simulation.scene().charge()) {
   const scene::Plan plan = scene::make_plan(simulation.scene());
   reaction_ = plan.bulk_reaction.in;
   if (plan.conduction.in) conduction_.emplace(simulation);
   const bool is_read = reaction_ || conduction_ || simulation.scene().output.asks_for_snapshots();
-  if (!is_read || closure_ >= trace::traced_closures) return;
+  if (!is_read || simulation.scene().surface.friction == scene::FrictionClosure::none) return;
   for (Charge& body : simulation.bodies_of<materials::Charge>()) {
     for (std::size_t slot = 0; slot < body.particles.mass.size(); slot += math::pack_width)
       mpm::record(body.particles, slot);
@@ -206,7 +200,7 @@ void BulkHeat::accumulate(const mpm::Simulation& simulation) {
     for (std::size_t slot = 0; slot < energy->size(); ++slot) {
       materials::SlidingStep step;
       add(step, charge, slot, 1.0);
-      (*energy)[slot] += materials::sliding_heat(charge.law.sliding_friction, step)[closure_];
+      (*energy)[slot] += materials::sliding_heat(charge.law.sliding_friction, step);
     }
     ++energy;
   }

@@ -47,8 +47,8 @@ class TraceRecorder {
   void sample(const mpm::Simulation& simulation);
 
   double bottom_pressure() const { return bottom_pressure_; }  ///< Pa, at the present state
-  /// Friction energy since the start at a station, J/m3, by closure index.
-  double friction(std::size_t closure, std::size_t station) const { return heat_[closure][station]; }
+  /// Friction energy since the start at a station, J/m3.
+  double friction(std::size_t station) const { return heat_[station]; }
   const trace::BottomTrace& trace() const { return trace_; }
   trace::BottomTrace take() { return std::move(trace_); }
 
@@ -73,10 +73,10 @@ class TraceRecorder {
   std::vector<std::vector<Share>> shares_;  ///< by station
   double floor_ = 0;                        ///< Pa: the air's initial pressure
   trace::BottomTrace trace_;
-  std::array<std::vector<double>, trace::traced_closures> heat_;  ///< by closure and station, J/m3
-  double bottom_pressure_ = 0, chamber_pressure_ = 0;             ///< Pa, at the present state
-  double bottom_integral_ = 0;                                    ///< Pa s, over the present interval
-  double interval_begin_ = 0;                                     ///< s
+  std::vector<double> heat_;                           ///< by station, J/m3
+  double bottom_pressure_ = 0, chamber_pressure_ = 0;  ///< Pa, at the present state
+  double bottom_integral_ = 0;                         ///< Pa s, over the present interval
+  double interval_begin_ = 0;                          ///< s
 };
 
 /// A station that ignites is at T2 from then on.
@@ -104,7 +104,6 @@ class SteppedSkin {
   double heating(const TraceRecorder& recorder, std::size_t station, double dt);
 
   surface::SkinModel model_;
-  std::size_t closure_;
   surface::SkinHistory history_;
   std::vector<surface::SkinPoint> points_;  ///< by station
   std::vector<double> friction_;
@@ -126,7 +125,6 @@ class BulkHeat {
   void react(Charge& charge, double dt) const;
 
   scene::Charge charge_;
-  std::size_t closure_;
   bool reaction_;
   std::optional<mpm::Conduction> conduction_;  ///< only where the plan keeps it
   /// J/m3 since the last advance, by charge body; empty where the charge's temperatures are not needed.

@@ -22,7 +22,7 @@ Cost cost_of(const scene::Scene& scene) {
   const double stations =
       static_cast<double>(scene.output.observation_points.size()) +
       charge_extent(scene).r_end / scene.numerics.cell_size * scene.numerics.particles_per_cell;
-  const double trace = bytes_per_number * samples * (6.0 + stations * trace::traced_closures);
+  const double trace = bytes_per_number * samples * (6.0 + stations);
   // Of every gap time, air and skins.
   const double skins = bytes_per_number * gaps * samples * (2.0 + stations);
   return {.work = plan.work,

@@ -25,12 +25,8 @@ const math::AlignedArray* field_of(const mpm::AnyBody& any, std::string_view nam
 }
 
 EnergyBalance energy_of(const mpm::Simulation& simulation) {
-  const double whole = whole_circle;
-  const mpm::EnergyTotals& totals = simulation.energy();
-  EnergyBalance balance{totals.kinetic, totals.internal,  totals.external,    totals.body_force,
-                        totals.damping, totals.contact,   totals.plastic,     totals.viscous,
-                        totals.crack,   totals.hourglass, totals.charge_work, totals.charge_friction};
-  for (const auto& term : energy_terms) balance.*term.member *= whole;
+  EnergyBalance balance = simulation.energy();
+  for (const auto& term : energy_terms) balance.*term.member *= whole_circle;
   return balance;
 }
 
@@ -52,19 +48,10 @@ std::vector<InterfaceResult> interfaces_of(const mpm::Simulation& simulation) {
   if (form == nullptr) return results;
   const mpm::Contact& contact = form->contact();
   for (std::size_t face = 0; face < contact.faces(); ++face) {
-    InterfaceResult result;
-    result.body = simulation.scene().interfaces[contact.interface_of(face)].body;
-    result.along_x = contact.is_along_x(face);
-    result.face = contact.face_at(face);
-    result.friction_work = whole_circle * contact.friction_work(face);
-    for (const mpm::FaceState& node : contact.state_of(face)) {
-      result.place.push_back(node.place);
-      result.friction_heat.push_back(node.friction_heat);
-      result.slid.push_back(node.slid);
-      result.largest_gap.push_back(node.largest_gap);
-      result.overlap.push_back(node.overlap);
-    }
-    results.push_back(std::move(result));
+    InterfaceResult& result = results.emplace_back(
+        InterfaceResult{.body = simulation.scene().interfaces[contact.interface_of(face)].body});
+    for (const mpm::FaceState& node : contact.state_of(face, form->nodes()))
+      result.overlap = std::max(result.overlap, node.overlap);
   }
   return results;
 }

@@ -40,13 +40,8 @@ Snapshot take_snapshot(const mpm::Simulation& simulation, const std::vector<trac
 void add_skin(Snapshot& shot, const GapResult& gap, const trace::BottomTrace& trace,
               double ignition_temperature);
 
-/// Snapshots at the times and events that a scene asks for.
-///
-/// One at a time is the state at the end of the step that reaches it, and so is the one at the largest
-/// chamber pressure, whose time is known beforehand. Growth of cracks, yield and slip are looked for at the
-/// samples of the trace: of the first two the state at the first sample that has them is kept, and of the
-/// slip that at the sample with the largest, which is known at the end. Ignition is told by the
-/// run.
+/// Snapshots at the times and events that a scene asks for: each is the state at the end of the step that
+/// reaches its time, and so is the one at the largest chamber pressure, whose time is known beforehand.
 class SnapshotTaker {
  public:
   using Take = std::function<Snapshot()>;
@@ -55,10 +50,8 @@ class SnapshotTaker {
   /// Whether one of a time is due; then `take_due` is to be called.
   bool is_due(double time) const { return next_ < due_.size() && due_[next_].time - time <= tolerance_; }
   void take_due(double time, const Take& take);
-  /// At a sample of the trace.
-  void look_for_events(const mpm::Simulation& simulation, const Take& take);
-  /// An event has happened; only its first time counts.
-  void take_event(scene::Event event, const Take& take);
+  /// The skin has ignited; only the first call counts.
+  void take_ignition(const Take& take);
   /// Nothing is left that has a time.
   bool done() const { return next_ == due_.size(); }
 
@@ -70,14 +63,12 @@ class SnapshotTaker {
     double time;  ///< s
     std::optional<scene::Event> event;
   };
-  bool wants(scene::Event event) const;
   void keep(Snapshot shot, std::vector<scene::Event> events);
 
   std::vector<Due> due_;  ///< in order of time
   std::size_t next_ = 0;
-  double tolerance_;                  ///< s, round-off of times
-  std::vector<scene::Event> wanted_;  ///< not taken yet
-  double largest_slip_ = 0;           ///< m
+  double tolerance_;  ///< s, round-off of times
+  bool wants_ignition_;
   std::vector<Snapshot> taken_;
 };
 

@@ -99,7 +99,6 @@ CaseResult run_with_skin(const scene::Scene& scene, double gap, const RunOptions
   result.mechanics = runner.run();
   result.gaps.push_back(gap_result(surface::skin_model(scene), runner.take_skin(), result.mechanics.trace));
   result.gaps.back().combustion = runner.take_combustion(result.mechanics);
-  result.gaps.back().with_mechanics = true;
   return result;
 }
 

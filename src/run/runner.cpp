@@ -139,13 +139,6 @@ Snapshot Runner::snapshot() const {
   return shot;
 }
 
-/// Ignition at the end of the step that has it.
-void Runner::take_snapshots_of_events(bool samples) {
-  const auto take = [this] { return snapshot(); };
-  if (surface_ && surface_->ignited()) snapshots_.take_event(scene::Event::ignition, take);
-  if (samples) snapshots_.look_for_events(simulation_, take);
-}
-
 void Runner::advance(double dt) {
   const scene::Scene& scene = simulation_.scene();
   simulation_.step(dt);
@@ -159,8 +152,7 @@ void Runner::advance(double dt) {
   if (couples_back_) burn();
   const double time = simulation_.time();
   const bool last = finished();
-  const bool samples = time >= next_sample_ || last;
-  if (samples) {
+  if (time >= next_sample_ || last) {
     recorder_.sample(simulation_);
     if (surface_) surface_->record(recorder_);
     if (burning_) burning_->record(simulation_, recorder_);
@@ -168,7 +160,7 @@ void Runner::advance(double dt) {
     next_sample_ = next_time(next_sample_, scene.output.trace_interval, time);
   }
   take_due_snapshots();
-  if (simulation_.scene().output.asks_for_snapshots()) take_snapshots_of_events(samples);
+  if (surface_ && surface_->ignited()) snapshots_.take_ignition([this] { return snapshot(); });
   if (time >= next_monitor_ && !last) take_monitor_sample(dt);
 }
 

@@ -35,7 +35,6 @@ class Runner {
   void check_energy(const EnergyBalance& energy);
   void take_monitor_sample(double time_step);
   void take_due_snapshots();
-  void take_snapshots_of_events(bool samples);
   Snapshot snapshot() const;
   void stop(RunStatus status, std::string reason);
   void stop_now(RunStatus status, const std::string& what);

@@ -133,55 +133,17 @@ void add_bottom(const mpm::Simulation& simulation, const std::vector<trace::Stat
 
 FaceSnapshot face_snapshot(const mpm::Simulation& simulation, const mpm::TotalLagrangian& form,
                            std::size_t index) {
-  const mpm::Contact& contact = form.contact();
-  const mpm::Nodes& nodes = form.nodes()[contact.nodes_of(index).nodes];
-  const std::vector<std::size_t>& indices = contact.nodes_of(index).indices;
-  const std::vector<mpm::FaceState> states = contact.state_of(index);
-  const bool along_x = contact.is_along_x(index);
   FaceSnapshot face;
-  face.body = simulation.scene().interfaces[contact.interface_of(index)].body;
-  for (std::size_t k = 0; k < states.size(); ++k) {
-    const mpm::FaceState& state = states[k];
-    const double across = contact.face_at(index);
-    face.x.push_back((along_x ? state.place : across) + nodes.displacement_x[indices[k]]);
-    face.r.push_back((along_x ? across : state.place) + nodes.displacement_r[indices[k]]);
+  face.body = simulation.scene().interfaces[form.contact().interface_of(index)].body;
+  for (const mpm::FaceState& state : form.contact().state_of(index, form.nodes())) {
+    face.x.push_back(state.x);
+    face.r.push_back(state.r);
     face.slip.push_back(state.slip);
     face.pressure.push_back(state.pressure);
     face.shear.push_back(state.shear);
     face.opening.push_back(state.gap);
   }
   return face;
-}
-
-/// Whether any body's plastic strain is above 0.
-bool has_yielded(const mpm::Simulation& simulation) {
-  return std::ranges::any_of(simulation.bodies(), [](const mpm::AnyBody& any) {
-    const math::AlignedArray* strain = field_of(any, "plastic_strain");
-    return strain != nullptr && std::ranges::any_of(*strain, [](double each) { return each > 0.0; });
-  });
-}
-
-/// Whether any crack is longer than at first by more than a thousandth.
-bool has_grown_crack(const mpm::Simulation& simulation) {
-  constexpr double grown = 1.001;
-  const auto charges = simulation.bodies_of<materials::Charge>();
-  return std::ranges::any_of(charges, [](const mpm::Body<materials::Charge>& charge) {
-    const double longest = grown * charge.law.strength.initial_crack_radius;
-    const math::AlignedArray& radius =
-        charge.state[materials::field_index<materials::Charge>("crack_radius")];
-    return std::ranges::any_of(radius, [&](double each) { return each > longest; });
-  });
-}
-
-/// m, of the nodes of all faces that slide.
-double largest_slip(const mpm::Simulation& simulation) {
-  double largest = 0;
-  const mpm::TotalLagrangian* form = simulation.total_lagrangian();
-  if (form == nullptr) return largest;
-  for (std::size_t face = 0; face < form->contact().faces(); ++face)
-    for (const mpm::FaceState& node : form->contact().state_of(face))
-      largest = std::max(largest, std::abs(node.slip));
-  return largest;
 }
 
 }  // namespace
@@ -226,12 +188,11 @@ void add_skin(Snapshot& shot, const GapResult& gap, const trace::BottomTrace& tr
 }
 
 SnapshotTaker::SnapshotTaker(const scene::Scene& scene)
-    : tolerance_(2e-12 * scene::end_time(scene.load)), wanted_(scene.output.snapshot_events) {
+    : tolerance_(2e-12 * scene::end_time(scene.load)),
+      wants_ignition_(scene.output.asks_for(Event::ignition)) {
   for (const double time : scene.output.snapshot_times) due_.push_back({time, {}});
-  if (wants(Event::peak_pressure)) {
+  if (scene.output.asks_for(Event::peak_pressure))
     due_.push_back({scene::PressureHistory(scene.load).peak_time(), Event::peak_pressure});
-    std::erase(wanted_, Event::peak_pressure);
-  }
   std::ranges::stable_sort(due_, {}, &Due::time);
 }
 
@@ -242,23 +203,8 @@ void SnapshotTaker::take_due(double time, const Take& take) {
   keep(take(), std::move(events));
 }
 
-void SnapshotTaker::look_for_events(const mpm::Simulation& simulation, const Take& take) {
-  if (wanted_.empty()) return;
-  if (wants(Event::first_crack_growth) && has_grown_crack(simulation))
-    take_event(Event::first_crack_growth, take);
-  if (wants(Event::first_yield) && has_yielded(simulation)) take_event(Event::first_yield, take);
-  if (!wants(Event::largest_slip)) return;
-  const double slip = largest_slip(simulation);
-  if (!(slip > largest_slip_)) return;
-  largest_slip_ = slip;
-  std::erase_if(taken_, [](const auto& shot) { return shot.events == std::vector{Event::largest_slip}; });
-  keep(take(), {Event::largest_slip});
-}
-
-void SnapshotTaker::take_event(Event event, const Take& take) {
-  if (!wants(event)) return;
-  std::erase(wanted_, event);
-  keep(take(), {event});
+void SnapshotTaker::take_ignition(const Take& take) {
+  if (std::exchange(wants_ignition_, false)) keep(take(), {Event::ignition});
 }
 
 void SnapshotTaker::keep(Snapshot shot, std::vector<Event> events) {
@@ -270,8 +216,6 @@ std::vector<Snapshot> SnapshotTaker::finish() {
   merge_instants(taken_);
   return std::move(taken_);
 }
-
-bool SnapshotTaker::wants(Event event) const { return std::ranges::find(wanted_, event) != wanted_.end(); }
 
 void merge_instants(std::vector<Snapshot>& snapshots) {
   std::ranges::stable_sort(snapshots, {}, &Snapshot::time);

@@ -183,30 +183,25 @@ void check_rise(const Scene& scene, const MechanicsResult&, Warnings& warnings) 
 }
 
 /// Swings of a measured curve may lie near the shell's own frequencies, which more inertia moves.
-void check_measured_curve(const Scene& scene, const MechanicsResult&, Warnings& warnings) {
-  if (scene.load.curve_time.empty() || !(scene.numerics.selective_inertia > 1.0)) return;
-  warnings.add("inertia",
-               "the load is a measured curve, and inertia is selective: the shell follows its swings with "
-               "true inertia "
-               "alone (numerics.selective_inertia = 1)");
-}
-
-void check_selective_rise(const Scene& scene, const MechanicsResult&, Warnings& warnings) {
+void check_selective_inertia(const Scene& scene, const MechanicsResult&, Warnings& warnings) {
   if (!(scene.numerics.selective_inertia > 1.0)) return;
-  if (!scene::changes_too_fast_for_selective_inertia(scene)) return;
-  warnings.add(
-      "inertia",
-      "the load rises or falls by more than 80 % of its peak within 0.5 ms, or 2.5 transits of sound through "
-      "the charge, and inertia is selective: its effect was measured for slower loads alone "
-      "(numerics.selective_inertia = 1)");
+  if (scene::changes_too_fast_for_selective_inertia(scene))
+    warnings.add(
+        "inertia",
+        "the load rises or falls by more than 80 % of its peak within 0.5 ms, or 2.5 transits of sound "
+        "through the charge, and inertia is selective: its effect was measured for slower loads alone "
+        "(numerics.selective_inertia = 1)");
+  if (!scene.load.curve_time.empty())
+    warnings.add("inertia",
+                 "the load is a measured curve, and inertia is selective: the shell follows its swings with "
+                 "true inertia alone (numerics.selective_inertia = 1)");
 }
 
 /// Highest bulk temperature (K) of the charge's bottom under friction heat with factor 1.
 double bulk_temperature(const Scene& scene, const trace::BottomTrace& trace) {
-  const auto closure = static_cast<std::size_t>(scene.surface.friction);
   double most = 0;
-  if (closure < trace.friction.size())
-    for (const double energy : trace.friction[closure]) most = std::max(most, energy);
+  if (scene.surface.friction != scene::FrictionClosure::none)
+    for (const double energy : trace.friction) most = std::max(most, energy);
   return scene.initial_temperature + most / (scene.charge().density * scene.charge().specific_heat);
 }
 
@@ -294,11 +289,9 @@ void check_stations(const Scene& scene, const MechanicsResult&, Warnings& warnin
 
 void check_faces(const Scene& scene, const MechanicsResult& mechanics, Warnings& warnings) {
   for (const InterfaceResult& faces : mechanics.interfaces) {
-    const auto most = std::ranges::max_element(faces.overlap);
-    if (most == faces.overlap.end() || *most <= largest_overlap_over_cell * scene.numerics.cell_size)
-      continue;
+    if (faces.overlap <= largest_overlap_over_cell * scene.numerics.cell_size) continue;
     warnings.add("cells", "the charge and the body \"{}\" pass into each other by {:.3g} mm", faces.body,
-                 1e3 * *most);
+                 1e3 * faces.overlap);
   }
 }
 
@@ -343,8 +336,8 @@ std::vector<Warning> validity_warnings(const Scene& scene, const MechanicsResult
   for (const std::string& clause : uncovered_load(scene.load)) warnings.add("load", "{}", clause);
   hold({check_samples, check_limiters});
   if (scene::has_charge(scene))
-    hold({check_cracks, check_rise, check_selective_rise, check_measured_curve, check_charge, check_bottom,
-          check_bearing, check_stations, check_yield});
+    hold({check_cracks, check_rise, check_selective_inertia, check_charge, check_bottom, check_bearing,
+          check_stations, check_yield});
   hold({check_faces});
   return warnings;
 }

@@ -268,7 +268,7 @@ double bulk_temperature_bound(const Scene& scene) {
   const auto slowest = static_cast<std::size_t>(std::ranges::min_element(rates) - rates.begin());
   const double work =
       (1.0 + charge.sliding_friction) * pressure * pressure / charge.strength.shear_moduli[slowest];
-  const double compressed = scene.initial_temperature * std::exp(charge.grueneisen() * pressure / bulk);
+  const double compressed = scene.initial_temperature * std::exp(charge.eos.omega * pressure / bulk);
   return compressed + work / (charge.density * charge.specific_heat);
 }
 

@@ -181,8 +181,7 @@ void document(std::vector<DocumentedKey>& documented, const std::vector<Key<Owne
 }  // namespace
 
 const std::vector<std::string>& event_words() {
-  static const std::vector<std::string> words{"first-crack-growth", "first-yield", "peak-pressure",
-                                              "largest-slip", "ignition"};
+  static const std::vector<std::string> words{"peak-pressure", "ignition"};
   return words;
 }
 

@@ -34,7 +34,8 @@ std::vector<Key<materials::AirParameters>> air_keys() {
 
 std::vector<Key<Surface>> friction_keys() {
   std::vector<std::pair<std::string, FrictionClosure>> words;
-  for (const FrictionClosure closure : materials::all_closures) words.emplace_back(word_of(closure), closure);
+  for (const auto closure : {FrictionClosure::total_strain_rate, FrictionClosure::none})
+    words.emplace_back(word_of(closure), closure);
   return {
       word_key("closure", Standing::assumed,
                "Strain rate that the sliding friction acts on: the total one, or none.", words,

@@ -96,12 +96,7 @@ void check_kinetics(const SceneFile& file) {
 }
 
 void check_equation_of_state(const SceneFile& file) {
-  static const std::vector<Key<Charge>> keys = Charge::parameters();
-  for (const Key<Charge>& key : keys)
-    if (file.given.contains(key.name) && key.is_written && !key.is_written(file.scene.charge()))
-      throw fault_at(file, key.name, "a constant beside those of another equation of state",
-                     "the constants of one equation of state");
-  const auto fault = std::visit([](const auto& eos) { return eos.fault(); }, file.scene.charge().eos);
+  const auto fault = materials::fault_of(file.scene.charge().eos);
   if (!fault) return;
   const auto given = std::ranges::find_if(
       fault->keys, [&](const std::string& key) { return file.given.contains("charge." + key); });

@@ -51,12 +51,9 @@ void lay_out_trace(Archive& archive, Trace& trace) {
                 {"Pa", "area mean of the axial compression over the bottom row"});
   archive.array("mean_bottom_pressure", trace.mean_bottom_pressure,
                 {"Pa", "bottom pressure, mean over the interval that ends at the sample"});
-  for (std::size_t closure = 0; closure < trace::traced_closures; ++closure) {
-    archive.table(
-        "friction_" + std::string(materials::friction_closures[closure].stored_word), trace.friction[closure],
-        {samples, trace.stations.size()},
-        {"J/m3", "friction energy since the start without localisation; rows are times, columns stations"});
-  }
+  archive.table(
+      "friction_literal", trace.friction, {samples, trace.stations.size()},
+      {"J/m3", "friction energy since the start without localisation; rows are times, columns stations"});
 }
 
 template <class Archive, class Rows>
@@ -92,8 +89,12 @@ void lay_out_mechanics(Archive& archive, Value& mechanics) {
     });
     archive.group("limiters", "How often limiters acted",
                   [&] { lay_out_members(archive, mechanics.limiters, run::limiters); });
-    list(archive, "interfaces", "A face of the charge on which a body can slide", mechanics.interfaces,
-         [&](auto& faces) { lay_out_members(archive, faces, run::stored_interface); });
+    archive.group("interfaces", "Faces of the charge on which bodies can slide", [&] {
+      column(archive, "body", mechanics.interfaces, &run::InterfaceResult::body,
+             {"none", "the body that touches the charge"});
+      column(archive, "overlap", mechanics.interfaces, &run::InterfaceResult::overlap,
+             {"m", "largest by which the faces passed into each other"});
+    });
     archive.value("yielded_wall", mechanics.yielded_wall,
                   {"m", "axial length of the wall whose plastic strain exceeds 0.2 %"});
     archive.group("monitor", "History of the energy balance and of stability",
@@ -160,7 +161,6 @@ template <class Archive, class Value>
 void lay_out_gap(Archive& archive, Value& gap, const trace::BottomTrace& trace) {
   auto& skin = gap.skin;
   archive.value("gap", gap.gap, {"m", "thickness of the bottom gap"});
-  integer(archive, "coupled", gap.with_mechanics, {"1", "1 when integrated inside the mechanics"});
   lay_out_maximum(archive, "maximum_at_stations", "T_max over the stations, which tile the bottom",
                   gap.at_stations, trace);
   lay_out_maximum(archive, "maximum_at_points", "T_max over the observation points", gap.at_points, trace);

@@ -161,8 +161,7 @@ Step<math::Pack> step_of_solids(const SkinModel& model, const SkinEquation& equa
 }
 
 const std::vector<double>* friction_of(const SkinModel& model, const trace::BottomTrace& trace) {
-  const auto closure = static_cast<std::size_t>(model.surface.friction);
-  return closure < trace::traced_closures ? &trace.friction[closure] : nullptr;
+  return model.surface.friction == scene::FrictionClosure::none ? nullptr : &trace.friction;
 }
 
 /// Share of Arrhenius heat in all that heats a solid at temperature T, 0 to 1. `outside` in K/s.

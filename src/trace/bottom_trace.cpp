@@ -3,6 +3,9 @@
 #include "launchsafe/math/numbers.hpp"
 
 #include <algorithm>
+#include <array>
+#include <cmath>
+#include <utility>
 
 namespace launchsafe::trace {
 namespace {
@@ -24,7 +27,7 @@ std::vector<double> combined_means(const std::vector<double>& time, const std::v
 std::vector<double> picked_rows(const std::vector<double>& values, std::size_t width,
                                 const std::vector<std::size_t>& kept) {
   std::vector<double> result;
-  if (values.empty()) return result;  // a closure that was not traced
+  if (values.empty()) return result;  // not traced
   for (const std::size_t sample : kept) {
     const auto begin = values.begin() + static_cast<std::ptrdiff_t>(sample * width);
     result.insert(result.end(), begin, begin + static_cast<std::ptrdiff_t>(width));
@@ -37,27 +40,18 @@ BottomTrace with_samples(const BottomTrace& trace, const std::vector<std::size_t
   for (auto* values : {&result.time, &result.chamber_pressure, &result.bottom_pressure})
     *values = picked_rows(*values, 1, kept);
   result.mean_bottom_pressure = combined_means(trace.time, result.mean_bottom_pressure, kept);
-  for (auto& energy : result.friction) energy = picked_rows(energy, trace.stations.size(), kept);
+  result.friction = picked_rows(trace.friction, trace.stations.size(), kept);
   return result;
 }
 
-constexpr std::array pressures{&BottomTrace::chamber_pressure, &BottomTrace::bottom_pressure,
-                               &BottomTrace::mean_bottom_pressure};
-/// All pressures and energies of a trace: so many histories, with as many values at each sample or as many a
-/// station.
-constexpr std::size_t histories = pressures.size() + traced_closures;
+constexpr std::array histories{&BottomTrace::chamber_pressure, &BottomTrace::bottom_pressure,
+                               &BottomTrace::mean_bottom_pressure, &BottomTrace::friction};
 
-template <class Trace>
-auto& history(Trace& trace, std::size_t index) {
-  return index < pressures.size() ? trace.*pressures[index] : trace.friction[index - pressures.size()];
-}
-
-/// Whether two launches have the same stations, closures and samples.
+/// Whether two launches have the same stations and samples.
 bool are_alike(const BottomTrace& a, const BottomTrace& b) {
   if (a.stations.size() != b.stations.size() || a.samples() != b.samples()) return false;
-  for (std::size_t i = 0; i < histories; ++i)
-    if (history(a, i).size() != history(b, i).size()) return false;
-  return true;
+  return std::ranges::all_of(histories,
+                             [&](const auto history) { return (a.*history).size() == (b.*history).size(); });
 }
 
 }  // namespace
@@ -65,12 +59,9 @@ bool are_alike(const BottomTrace& a, const BottomTrace& b) {
 BottomTrace of_rings(BottomTrace trace) {
   const std::vector<Station> stations = trace.stations;
   std::erase_if(trace.stations, &Station::observation);
-  for (std::vector<double>& energy : trace.friction) {
-    const std::vector<double> whole = std::move(energy);
-    energy.clear();
-    for (std::size_t i = 0; i < whole.size(); ++i)
-      if (!stations[i % stations.size()].observation) energy.push_back(whole[i]);
-  }
+  const std::vector<double> whole = std::exchange(trace.friction, {});
+  for (std::size_t i = 0; i < whole.size(); ++i)
+    if (!stations[i % stations.size()].observation) trace.friction.push_back(whole[i]);
   return trace;
 }
 
@@ -90,9 +81,9 @@ BottomTrace stretched(BottomTrace trace, double factor) {
 std::optional<BottomTrace> mirrored(const BottomTrace& trace, const BottomTrace& other) {
   if (!are_alike(trace, other)) return std::nullopt;
   BottomTrace result = trace;
-  for (std::size_t i = 0; i < histories; ++i) {
-    std::vector<double>& values = history(result, i);
-    const std::vector<double>& others = history(other, i);
+  for (const auto history : histories) {
+    std::vector<double>& values = result.*history;
+    const std::vector<double>& others = other.*history;
     for (std::size_t k = 0; k < values.size(); ++k)
       if (others[k] > 0.0) values[k] *= values[k] / others[k];
   }

@@ -1,27 +1,27 @@
 // Visco-SCRAM: relaxation and loading without cracks, which it integrates exactly, and with growing cracks.
-#include "launchsafe/materials/visco_scram_step.hpp"
 #include "series.hpp"
+#include "support/visco_scram_update.hpp"
 
 #include <cmath>
 
 namespace launchsafe::error_of_parts {
 namespace {
 
-using materials::ViscoScramParameters;
 using math::Pack;
-using State = materials::ViscoScramState<Pack>;
+using test_support::ViscoScramParameters;
+using State = test_support::ElementsState<Pack>;
 
 /// Shear at a constant rate (1/s) for a time (s), of equal particles in one Pack, as the program does.
 State sheared(const ViscoScramParameters& solid, State state, double rate, double time, int steps) {
-  materials::ViscoScramStep law(solid);
+  materials::ViscoScram law(solid);
   law.set_step(time / steps);
   const auto increment = vector_of(math::Deviator<Pack>{Pack(0.0), Pack(0.0), Pack(rate * time / steps)});
-  auto now = law.state_of(state);
+  auto now = test_support::state_of(state);
   for (int k = 0; k < steps; ++k) now = law.update(now, increment, Pack(0.0)).state;
-  return law.elements_of(now);
+  return test_support::elements_of(now);
 }
 
-double shear_stress(const State& state) { return materials::total_deviator(state).rx[0]; }
+double shear_stress(const State& state) { return test_support::total_deviator(state).rx[0]; }
 
 ViscoScramParameters uncracked() {
   ViscoScramParameters solid;

@@ -30,8 +30,8 @@ run::MechanicsResult rubbing_mechanics(const scene::Scene& scene) {
   const auto wall = std::ranges::find(scene.interfaces, "wall", &scene::Interface::body);
   const double shares[] = {0.5 + 5.0 * wall->friction.value_or(0.0), 1.0, 0.8, 1.0};
   constexpr double colder = 0.75;  // than the synthetic launch: the localisation that is sought is larger
-  for (auto& energies : result.trace.friction)
-    for (std::size_t i = 0; i < energies.size(); ++i) energies[i] *= colder * shares[i % 4];
+  for (std::size_t i = 0; i < result.trace.friction.size(); ++i)
+    result.trace.friction[i] *= colder * shares[i % 4];
   return result;
 }
 

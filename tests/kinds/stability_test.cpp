@@ -136,7 +136,7 @@ TEST(Stability, EveryBrokenInvariantWithoutAWarningIsWrong) {
   constexpr Outcome wrong = Outcome::wrong;
   const Spoil pushed = [](auto& m, auto&) { m.monitor[1].momentum = 1e3; };
   const Spoil cooled_by_friction = [](auto& m, auto&) {
-    for (double& energy : m.trace.friction[0]) energy = -energy;
+    for (double& energy : m.trace.friction) energy = -energy;
   };
   expect_as_made({
       {wrong, "mass of charge", [](auto& m, auto&) { m.masses.at(1).mass *= 1.0 + 1e-9; }},
@@ -146,7 +146,7 @@ TEST(Stability, EveryBrokenInvariantWithoutAWarningIsWrong) {
       {wrong, "plastic dissipation falls", [](auto& m, auto&) { m.monitor[0].energy.plastic = 6.0; }},
       {wrong, "crack dissipation falls", [](auto& m, auto&) { m.monitor[1].energy.crack = -1.0; }},
       {wrong, "viscous dissipation falls", [](auto& m, auto&) { m.monitor[1].energy.viscous = -1.0; }},
-      {wrong, "friction heat falls", [](auto& m, auto&) { m.trace.friction[0][400] = 0.0; }},
+      {wrong, "friction heat falls", [](auto& m, auto&) { m.trace.friction[400] = 0.0; }},
       {wrong, "the skin falls", cooled_by_friction},
   });
 }

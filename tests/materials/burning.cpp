@@ -24,7 +24,9 @@ const ProductGas& products() {
 }
 /// Molecules without size and attraction: the ideal gas.
 ProductGas ideal_gas() { return ProductGas({{{100.0, 0.0}, 30.0}}, 1200.0); }
-BurningMixture mixture() { return BurningMixture(UnreactedJwl{}, 1717.0, products(), tension_cutoff); }
+BurningMixture mixture() {
+  return BurningMixture(unreacted_composition_b(), 1717.0, products(), tension_cutoff);
+}
 
 /// Z of one gas at T (K) and molar volume V (m3/mol), Eq. 37 corrected: 1 + B* x + B*/T*^(1/4) x^2, x = b0/V.
 double virial_compressibility(const LennardJones& gas, double temperature, double molar_volume) {
@@ -157,7 +159,7 @@ TEST(BurningMixture, PressureIsContinuousAndEnergyConservedInBetween) {
 TEST(BurningMixture, GasAloneIsCompressedAlongItsAdiabat) {
   // The ideal gas against p v^gamma, in steps of falling length: second order.
   const ProductGas gas = ideal_gas();
-  const BurningMixture law(UnreactedJwl{}, 1717.0, gas, tension_cutoff);
+  const BurningMixture law(unreacted_composition_b(), 1717.0, gas, tension_cutoff);
   const double gamma = 1.0 + 30.0 * gas_constant / 1200.0;
   const auto end = [&](int steps) {
     BurningState state = law.advance(law.unburnt(0.99), {0.99, 2.0, 1.0, 1200.0 * 1000.0});

@@ -45,7 +45,7 @@ TEST(JwlIsentrope, RestIsFreeOfStressAndTheSlopeIsTheBulkModulus) {
   const JwlParameters m = unreacted_composition_b();
   const JwlIsentrope isentrope(m);
   EXPECT_EQ(isentrope.pressure(0.0), 0.0);
-  EXPECT_NEAR(-isentrope.pressure(1e-12) / 1e-12 / UnreactedJwl{}.bulk_modulus_at_rest(), 1.0, 1e-10);
+  EXPECT_NEAR(-isentrope.pressure(1e-12) / 1e-12 / jwl_bulk_modulus_at_rest(m), 1.0, 1e-10);
 }
 
 TEST(JwlIsentrope, VolumeThatIsNoneGivesNoPressure) {

@@ -20,7 +20,7 @@ using namespace launchsafe::materials;
 namespace math = launchsafe::math;
 namespace test_support = launchsafe::test_support;
 using MaxwellSolid = ViscoScramParameters;
-using SolidState = ViscoScramState<double>;
+using SolidState = test_support::ElementsState<double>;
 
 constexpr double time_steps[] = {1e-9, 1e-8, 1e-7, 1e-6, 1e-5, 1e-4};  // s
 
@@ -31,15 +31,15 @@ MaxwellSolid solid_with(double tau) {
   return solid;
 }
 
-ViscoScramDissipation<double> advance_solid(const MaxwellSolid& solid, double dt, SolidState& state,
-                                            double shear) {
+test_support::Dissipation advance_solid(const MaxwellSolid& solid, double dt, SolidState& state,
+                                        double shear) {
   return test_support::charge_update(test_support::step_of(solid, dt), state, {0.0, 0.0, shear}, 0.0);
 }
 
 /// Elastic energy (J/m3) of the elements and of the open cracks: sum S_n:S_n/(4 G_n) + q S:S/(4 G).
 double energy_of(const MaxwellSolid& solid, const SolidState& state) {
   const auto total = total_deviator(state);
-  double energy = crack_strain_ratio(solid, state.crack_radius) * math::contract(total, total) /
+  double energy = ViscoScram(solid).strain_ratio(state.crack_radius) * math::contract(total, total) /
                   (4.0 * solid.shear_modulus());
   for (std::size_t n = 0; n < maxwell_elements; ++n)
     energy += math::contract(state.elements[n], state.elements[n]) / (4.0 * solid.shear_moduli[n]);

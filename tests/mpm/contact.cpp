@@ -21,7 +21,7 @@ TEST(Contact, ClosesTheEnergyBalance) {
       double largest = 0.0, scale = 0.0;
       while (simulation.time() < 2e-3) {
         simulation.step(simulation.stable_time_step());
-        const mpm::EnergyTotals& e = simulation.energy();
+        const mpm::EnergyBalance& e = simulation.energy();
         largest = std::max(largest, std::abs(ledger(e)));
         scale = std::max(scale, e.kinetic + e.internal);
       }
@@ -63,7 +63,7 @@ std::pair<double, double> bottom_and_side(double friction) {
   const mpm::Contact& contact = simulation.total_lagrangian()->contact();
   std::pair<double, double> shares;
   for (std::size_t f = 0; f < contact.faces(); ++f) {
-    const auto nodes = contact.state_of(f);
+    const auto nodes = contact.state_of(f, simulation.total_lagrangian()->nodes());
     if (simulation.scene().interfaces[contact.interface_of(f)].body == "base") {
       shares.first = normal_force(nodes) / (whole * area);
     } else {

@@ -36,10 +36,9 @@ TEST(ContactPairing, AUniformTractionGivesEveryNodeItsShare) {
   const FaceLine other = line({-0.2, 0.35, 0.9, 1.7, 2.2, 3.1, 4.0, 5.5});
   for (const FaceLine& own : {line({0.0, 1.0, 2.0, 3.0, 4.0}), line({0.13, 0.4, 1.9, 2.0, 3.35, 5.2}),
                               line({0.0, 4.0}), line({-0.7, 0.4, 1.1, 4.9, 6.3})})
-    for (const FaceMeasure measure : {FaceMeasure::radius_across, FaceMeasure::radius_along}) {
-      const bool ring = measure == FaceMeasure::radius_along;
+    for (const bool ring : {false, true}) {
       std::vector<PairRow> rows;
-      pair_faces(own, other, measure, rows);
+      pair_faces(own, other, !ring, rows);
       std::vector<double> own_force(own.along.size()), other_force(other.along.size());
       for (const PairRow& row : rows) {
         for (const PairShare& each : row.own) own_force[each.node] += row.area * each.share;
@@ -59,7 +58,7 @@ TEST(ContactPairing, NodesThatCoincideMeetEachOtherAlone) {
   other.along[1] += 1e-18;
   own.along[3] -= 3e-18;
   std::vector<PairRow> rows;
-  pair_faces(own, other, FaceMeasure::radius_along, rows);
+  pair_faces(own, other, false, rows);
   for (std::size_t i = 0; i < rows.size(); ++i) {
     ASSERT_EQ(rows[i].own.size(), 1u);
     ASSERT_EQ(rows[i].other.size(), 1u);
@@ -74,7 +73,7 @@ TEST(ContactPairing, SharesReproduceALinearFace) {
   for (FaceLine* face : {&own, &other})
     for (std::size_t i = 0; i < face->along.size(); ++i) face->across[i] = 0.5 + 0.1 * face->along[i];
   std::vector<PairRow> rows;
-  pair_faces(own, other, FaceMeasure::radius_across, rows);
+  pair_faces(own, other, true, rows);
   for (std::size_t i = 0; i < rows.size(); ++i) {
     double place = 0.0;
     for (const PairShare& each : rows[i].other) place += each.share * other.across[each.node];
@@ -87,7 +86,7 @@ TEST(ContactPairing, AFaceReachesALittleOverTheOthersEnd) {
   // By less than a tenth of a cell: held whole. By more: its last node meets nothing.
   std::vector<PairRow> rows;
   for (const auto& [over, meets] : {std::pair{0.05, true}, {0.3, false}}) {
-    pair_faces(line({0.0, 1.0, 2.0 + over}), line({0.0, 1.0, 2.0}), FaceMeasure::radius_across, rows);
+    pair_faces(line({0.0, 1.0, 2.0 + over}), line({0.0, 1.0, 2.0}), true, rows);
     EXPECT_EQ(rows[2].area > 0.0, meets);
     EXPECT_GT(rows[1].area, 0.9);
   }

@@ -29,7 +29,7 @@ inline void go_until(LoadedSimulation& simulation, double end) {
   while (simulation.time() < end) simulation.step(simulation.stable_time_step());
 }
 
-inline double ledger(const mpm::EnergyTotals& e) {
+inline double ledger(const mpm::EnergyBalance& e) {
   return e.kinetic + e.internal + e.damping + e.contact - e.external - e.body_force;
 }
 

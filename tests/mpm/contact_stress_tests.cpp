@@ -22,14 +22,14 @@ struct ContactWatch {
   bool sound = true;
 
   void look(const LoadedSimulation& simulation) {
-    const mpm::EnergyTotals& e = simulation.energy();
+    const mpm::EnergyBalance& e = simulation.energy();
     scale = std::max(scale, std::abs(e.kinetic) + e.internal);
     drift = std::max(drift, std::abs(ledger(e) - initial));
     least_loss = std::min(least_loss, e.contact);
     sound = sound && std::isfinite(e.kinetic) && !(simulation.events().distorted > 0.0);
     const mpm::Contact& contact = simulation.total_lagrangian()->contact();
     for (std::size_t f = 0; f < contact.faces(); ++f)
-      for (const mpm::FaceState& node : contact.state_of(f)) {
+      for (const mpm::FaceState& node : contact.state_of(f, simulation.total_lagrangian()->nodes())) {
         deepest = std::min(deepest, node.gap);
         least_pressure = std::min(least_pressure, node.pressure);
         largest = std::max(largest, node.pressure);
@@ -125,7 +125,7 @@ TEST(ContactStressTests, AChargePastTheEndOfItsWallIsHeldByTheRestOfIt) {
     const mpm::Contact& contact = simulation.total_lagrangian()->contact();
     for (std::size_t f = 0; f < contact.faces(); ++f) {
       if (shell.interfaces[contact.interface_of(f)].body != "wall") continue;
-      for (const mpm::FaceState& node : contact.state_of(f))
+      for (const mpm::FaceState& node : contact.state_of(f, simulation.total_lagrangian()->nodes()))
         if (node.place < 0.2 - 20e-3) {
           EXPECT_EQ(node.area, 0.0);
         }
@@ -174,7 +174,7 @@ RodForces forces_round_a_rod(double friction) {
   RodForces forces{};
   const mpm::Contact& contact = simulation.total_lagrangian()->contact();
   for (std::size_t f = 0; f < contact.faces(); ++f) {
-    const auto nodes = contact.state_of(f);
+    const auto nodes = contact.state_of(f, simulation.total_lagrangian()->nodes());
     const std::string& body = simulation.scene().interfaces[contact.interface_of(f)].body;
     if (body == "base") forces.bottom = normal_force(nodes) / (whole * area);
     if (body != "rod") continue;

@@ -36,7 +36,7 @@ double energy_imbalance(scene::Scene shell) {
   double largest = 0.0, scale = 0.0;
   for (double step = 0.0; step < steps; step += 1.0) {
     simulation.step(end / steps);
-    const mpm::EnergyTotals& e = simulation.energy();
+    const mpm::EnergyBalance& e = simulation.energy();
     const double stored = e.kinetic + e.internal;
     largest = std::max(largest, std::abs(stored + e.damping - e.external - e.body_force));
     scale = std::max(scale, stored);

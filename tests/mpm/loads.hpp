@@ -36,8 +36,8 @@ class LoadedSimulation : public mpm::Simulation {
 
   /// With the work of these forces, as all of it is: relative to the mass centre, at the begin of the last
   /// step.
-  mpm::EnergyTotals energy() const {
-    mpm::EnergyTotals energy = Simulation::energy();
+  mpm::EnergyBalance energy() const {
+    mpm::EnergyBalance energy = Simulation::energy();
     energy.external += work_before_;
     return energy;
   }

@@ -116,7 +116,7 @@ TEST(Simulation, HeatsAChargeByFrictionAsUniaxialCompressionSays) {
     double work = 0.0;
     for (std::size_t slot = 0; slot < p.mass.size(); ++slot)
       work += p.mass[slot] / charge.law.density * 0.5 * p.pressure[slot] * (1.0 - p.volume_ratio[slot]);
-    const mpm::EnergyTotals& energy = simulation.energy();
+    const mpm::EnergyBalance& energy = simulation.energy();
     EXPECT_NEAR(energy.charge_friction / (charge.law.sliding_friction * work), 2.0 / 3.0, 0.02);
     EXPECT_NEAR(energy.charge_work / energy.internal, 1.0, 1e-3) << "there is nothing else";
     EXPECT_GT(energy.charge_work, work) << "the deviator takes work too";

@@ -72,7 +72,7 @@ TEST(TotalLagrangian, ClosesItsEnergyBalance) {
     double largest = 0.0, scale = 0.0;
     while (simulation.time() < 2e-3) {
       simulation.step(simulation.stable_time_step());
-      const mpm::EnergyTotals& e = simulation.energy();
+      const mpm::EnergyBalance& e = simulation.energy();
       largest = std::max(largest, std::abs(e.kinetic + e.internal + e.damping - e.external - e.body_force));
       scale = std::max(scale, e.kinetic + e.internal);
     }
@@ -142,7 +142,7 @@ TEST(TotalLagrangian, AStiffHourglassStoresLessBendingThanASoftOne) {
     run_until(simulation, 1e-3);
     return simulation.energy();
   };
-  const mpm::EnergyTotals none = stored(0.0), some = stored(0.1);
+  const mpm::EnergyBalance none = stored(0.0), some = stored(0.1);
   EXPECT_EQ(none.hourglass, 0.0);
   EXPECT_GT(some.hourglass, 0.0);
   EXPECT_LT(some.hourglass, 1e-2 * some.internal);

@@ -54,18 +54,6 @@ TEST(TwoWayCoupling, SnapshotsTellWhatHasBurntOfEveryParticle) {
   EXPECT_NEAR(mass / trace::interpolate(c.time, c.burnt_mass, burning.time), 1.0, 0.01);
 }
 
-TEST(TwoWayCoupling, BurnsTheSameWithAndWithoutSnapshots) {
-  scene::Scene scene = column();
-  scene.surface.friction = scene::FrictionClosure::total_strain_rate;
-  const CaseResult without = run_with_skin(scene, burning_gap);
-  scene.output.snapshot_times = {0.0, 1e-3};
-  const CaseResult with = run_with_skin(scene, burning_gap);
-  ASSERT_EQ(with.mechanics.snapshots.size(), 2u);
-  EXPECT_GT(without.gaps.front().combustion->burnt_mass.back(), 0.0);
-  EXPECT_EQ(without.gaps.front().combustion->burnt_mass, with.gaps.front().combustion->burnt_mass);
-  EXPECT_EQ(without.gaps.front().combustion->pressure, with.gaps.front().combustion->pressure);
-}
-
 TEST(TwoWayCoupling, GoesThroughIgnitionWithItsEnergyBalanced) {
   scene::Scene scene = column();
   scene.combustion.duration = 1.5e-3;
@@ -122,29 +110,6 @@ TEST(TwoWayCoupling, BurntMassDoesNotDependOnTheMesh) {
     const CombustionHistory& c = *result.gaps.front().combustion;
     EXPECT_LT(c.energy_drift, 0.01);
     EXPECT_NEAR(c.burnt_mass.back() / (1717.0 * area() * scene.surface.skin_thickness), 1.0, 1e-6);
-  }
-}
-
-TEST(TwoWayCoupling, InductionTimesAreThoseOfTheClosedForm) {
-  // Adiabatic, zero order, printed kinetics, to 2000 K (model section 10). A gap of nothing exchanges
-  // nothing.
-  const std::pair<double, double> cases[] = {
-      {600.0, 7.425578e-2}, {650.0, 2.746044e-3}, {700.0, 1.645534e-4}};
-  for (const auto& [temperature, induction] : cases) {
-    scene::Scene scene = column(5e-3);
-    scene.initial_temperature = temperature;
-    scene.surface.air.initial_temperature = temperature;
-    scene.load.peak = 1e6;
-    scene.load.duration = 1.2 * induction;
-    scene.output.trace_interval = 0.01 * induction;
-    scene.charge().kinetics.activation_temperature = 2.7e4;
-    scene.charge().kinetics.ignition_temperature = scene.charge().kinetics.burnt_temperature = 2000.0;
-    scene.combustion.duration = 1e-6;
-    const CaseResult result = run_with_skin(scene, 0.0);
-    ASSERT_TRUE(result.gaps.front().skin.ignition.has_value()) << temperature;
-    EXPECT_NEAR(result.gaps.front().skin.ignition->time / induction, 1.0, 1e-5) << temperature;
-    EXPECT_EQ(result.gaps.front().skin.ignition->cause, surface::IgnitionCause::arrhenius);
-    EXPECT_TRUE(result.gaps.front().combustion.has_value());
   }
 }
 

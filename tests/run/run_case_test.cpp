@@ -54,8 +54,8 @@ TEST(RunMechanics, FrictionEnergyNeverFallsAndTheBottomPressureFollowsTheLoad) {
   scene.load.peak_time = 12.9641e-3;
   const trace::BottomTrace trace = run_mechanics(scene).trace;
   const std::size_t stations = trace.stations.size();
-  for (const auto& friction : trace.friction)
-    for (std::size_t i = stations; i < friction.size(); ++i) EXPECT_GE(friction[i], friction[i - stations]);
+  for (std::size_t i = stations; i < trace.friction.size(); ++i)
+    EXPECT_GE(trace.friction[i], trace.friction[i - stations]);
   // A wall without friction carries nothing of the charge's weight: the bottom sees the setback pressure of
   // the charge, 140.843 MPa (model section 1), but for what base and walls store of the load.
   const double peak = *std::max_element(trace.bottom_pressure.begin(), trace.bottom_pressure.end());
@@ -183,13 +183,6 @@ TEST(RunMechanics, TellsHowMuchOfTheWallYieldsAndTheHeatOfFrictionOverTheWork) {
   EXPECT_TRUE(std::isnan(MechanicsResult().friction_over_work()));
 }
 
-TEST(RunCase, HotterForWiderGaps) {
-  const CaseResult result = run_case(coarse_scene());
-  ASSERT_EQ(result.gaps.size(), 6u);
-  for (std::size_t i = 1; i < result.gaps.size(); ++i)
-    EXPECT_GT(result.gaps[i].at_stations.temperature, result.gaps[i - 1].at_stations.temperature);
-}
-
 /// What the plan leaves out must not matter: conduction moves the bulk of the charge by less than the
 /// friction there.
 TEST(RunMechanics, ForcedConductionAndReactionChangeNoBulkTemperatureOfTheCharge) {
@@ -220,7 +213,6 @@ TEST(RunWithSkin, AgreesWithTheTracedTemperaturesBelowIgnition) {
     for (std::size_t i = 0; i < traced.skin.temperature.size(); ++i)
       ASSERT_NEAR(with_skin.gaps.front().skin.temperature[i], traced.skin.temperature[i], 2e-2);
     EXPECT_NEAR(with_skin.gaps.front().at_stations.temperature, traced.at_stations.temperature, 1e-3);
-    EXPECT_TRUE(with_skin.gaps.front().with_mechanics);
     EXPECT_NEAR(with_skin.gaps.front().air.taken, traced.air.taken, 1e-3 * traced.air.taken);
     EXPECT_EQ(with_skin.gaps.front().air.supplied, traced.air.supplied);
     EXPECT_EQ(traced.air.taken > 10.0 * traced.air.supplied,

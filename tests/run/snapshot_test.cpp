@@ -4,6 +4,7 @@
 #include "launchsafe/scene/plan.hpp"
 #include "launchsafe/scene/quantity.hpp"
 #include "launchsafe/scene/read_scene.hpp"
+#include "run/burning_scenes.hpp"
 #include "small_shell.hpp"
 #include "store/same_case.hpp"
 
@@ -52,15 +53,6 @@ MechanicsResult run_at(scene::Scene scene, std::vector<double> times) {
   return run_mechanics(scene);
 }
 
-bool is_sample(const MechanicsResult& run, double time) {
-  return std::find(run.trace.time.begin(), run.trace.time.end(), time) != run.trace.time.end();
-}
-
-/// Of the trace, before a time.
-double sample_before(const MechanicsResult& run, double time) {
-  return *(std::lower_bound(run.trace.time.begin(), run.trace.time.end(), time) - 1);
-}
-
 double largest(const std::vector<double>& values) {
   return values.empty() ? 0.0 : *std::max_element(values.begin(), values.end());
 }
@@ -73,61 +65,6 @@ TEST(SnapshotsOfEvents, OfThePeakIsTheEndOfTheStepThatReachesIt) {
   EXPECT_EQ(run.snapshots.front().events, std::vector{Event::peak_pressure});
   EXPECT_GE(run.snapshots.front().time, 2e-4);
   EXPECT_LT(run.snapshots.front().time, 2e-4 + 1.1 * scene::make_plan(scene).time_step);
-}
-
-// Against runs that take the state at the sample before.
-TEST(SnapshotsOfEvents, OfFirstYieldAndCrackGrowthAreTheFirstSamplesWithThem) {
-  scene::Scene scene = shell();
-  scene.steel().strength.a = 60e6;
-  scene.charge().strength.face_friction = 0.0;
-  scene.charge().strength.toughness *= 0.05;
-  scene.output.snapshot_events = {Event::first_yield, Event::first_crack_growth};
-  const MechanicsResult run = run_mechanics(scene);
-  const Snapshot yield = of(run.snapshots, Event::first_yield),
-                 growth = of(run.snapshots, Event::first_crack_growth);
-  const double grown = 1.001 * scene.charge().strength.initial_crack_radius;
-  EXPECT_TRUE(is_sample(run, yield.time));
-  EXPECT_TRUE(is_sample(run, growth.time));
-  EXPECT_GT(largest(yield.state.at("plastic_strain")), 0.0);
-  EXPECT_GT(largest(growth.state.at("crack_radius")), grown);
-  const MechanicsResult before =
-      run_at(scene, {sample_before(run, yield.time), sample_before(run, growth.time)});
-  for (const Snapshot& shot : before.snapshots) {
-    if (shot.time < yield.time) {
-      EXPECT_EQ(largest(shot.state.at("plastic_strain")), 0.0);
-    }
-    if (shot.time < growth.time) {
-      EXPECT_LE(largest(shot.state.at("crack_radius")), grown);
-    }
-  }
-}
-
-double largest_slip(const Snapshot& shot) {
-  double most = 0.0;
-  for (const FaceSnapshot& face : shot.faces)
-    for (const double slip : face.slip) most = std::max(most, std::abs(slip));
-  return most;
-}
-
-TEST(SnapshotsOfEvents, OfTheLargestSlipIsTheSampleWithIt) {
-  scene::Scene scene = shell(sliding_faces);
-  scene.output.snapshot_events = {Event::largest_slip};
-  const MechanicsResult run = run_mechanics(scene);
-  ASSERT_EQ(run.snapshots.size(), 1U);
-  const MechanicsResult all = run_at(scene, run.trace.time);
-  double most = 0.0, when = 0.0;
-  for (const Snapshot& shot : all.snapshots)
-    if (largest_slip(shot) > most) {
-      most = largest_slip(shot);
-      when = shot.time;
-    }
-  EXPECT_GT(most, 1e-6);
-  EXPECT_LT(when, run.end_time) << "the load falls from 0.2 ms on";
-  Snapshot shot = run.snapshots.front();
-  EXPECT_EQ(shot.time, when);
-  shot.events.clear();
-  testing::expect_same(shot, *std::find_if(all.snapshots.begin(), all.snapshots.end(),
-                                           [&](const Snapshot& each) { return each.time == when; }));
 }
 
 // The launch that is computed again is bitwise the same.
@@ -158,7 +95,7 @@ TEST(SnapshotsOfEvents, OfIgnitionIsTheLaunchAtTheEarliestOfItsGaps) {
 TEST(SnapshotsOfEvents, ThatDoNotHappenAreNotThere) {
   scene::Scene scene = shell();
   scene.charge().kinetics.ignition_temperature = 500.0;
-  scene.output.snapshot_events = {Event::peak_pressure, Event::largest_slip, Event::ignition};
+  scene.output.snapshot_events = {Event::peak_pressure, Event::ignition};
   const CaseResult result = run_case(scene);
   EXPECT_EQ(result.mechanics.snapshots.size(), 1U);
 }
@@ -204,8 +141,7 @@ TEST(Snapshots, HoldTheSkinsOfAllGapsAlongTheBottom) {
   }
 }
 
-// The base carries the charge: its contact pressure is the bottom's axial stress. Slip adds up to the path of
-// sliding where it never turns.
+// The base carries the charge: its contact pressure is the bottom's axial stress.
 TEST(Snapshots, HoldSlipAndPressureOfFacesThatSlide) {
   scene::Scene scene = shell(sliding_faces);
   scene.output.snapshot_times = {1.5e-4, 3e-4};
@@ -236,26 +172,11 @@ TEST(Snapshots, HoldSlipAndPressureOfFacesThatSlide) {
       trace::interpolate(run.trace.time, run.trace.bottom_pressure, run.snapshots[0].time);
   EXPECT_NEAR(force / area / pressure, 1.0, 0.05);
   EXPECT_EQ(run.snapshots[1].faces[index].body, "base");
-  for (std::size_t k = 0; k < bottom.slip.size(); ++k)
-    EXPECT_LE(std::abs(run.snapshots[1].faces[index].slip[k]), base->slid[k] * (1.0 + 1e-9));
 }
 
 TEST(Snapshots, OfAGapThatBurnsBeginWithItsIgnition) {
-  scene::Scene scene;
-  scene.bodies = {{"charge", "charge", 0.0, 0.04, 0.0, 2.5e-3}, {"base", "steel", 0.04, 0.06, 0.0, 2.5e-3}};
-  scene.load.duration = 1e-3;
-  scene.load.peak = 200e6;
-  scene.load.peak_time = 5e-3;
-  scene.load.shape = scene::LoadShape::power_exponential;
-  scene.load.exponent = 1.0;
+  scene::Scene scene = test_support::burning_column(1.25e-3, 2.5e-3, 1.5e-3);
   scene.surface.gaps = {0.0, 4e-4};
-  scene.surface.exchange_time = 5e-5;
-  scene.surface.friction = scene::FrictionClosure::none;
-  scene.charge().kinetics.ignition_temperature = 320.0;
-  scene.numerics.cell_size = 1.25e-3;
-  scene.output.trace_interval = 1e-5;
-  scene.coupling = scene::Coupling::two_way;
-  scene.combustion.duration = 1.5e-3;
   scene.output.snapshot_times = {1e-4, 1e-3, 1.05e-3};
   scene.output.snapshot_events = {Event::ignition};
   const CaseResult result = run_case(scene);

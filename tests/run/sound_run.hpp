@@ -31,7 +31,7 @@ inline MechanicsResult sound_run() {
     run.trace.time.push_back(2e-5 * i);
     run.trace.chamber_pressure.push_back(496e6 * i / 900.0);
     run.trace.bottom_pressure.push_back(0.99 * 140.843e6 * i / 900.0);
-    for (auto& friction : run.trace.friction) friction.push_back(180.0 * i);
+    run.trace.friction.push_back(180.0 * i);
   }
   run.monitor.resize(3);
   for (MonitorSample& sample : run.monitor) sample.largest_crack_radius = 30e-6;
@@ -39,14 +39,6 @@ inline MechanicsResult sound_run() {
   run.monitor[1].energy.kinetic = 18.7;
   run.monitor[2].largest_plastic_strain = 5e-3;
   return run;
-}
-
-/// Expects one warning, of this name, whose text has `part`.
-inline void expect_one(const std::vector<Warning>& warnings, const std::string& name,
-                       const std::string& part) {
-  ASSERT_EQ(warnings.size(), 1u) << (warnings.empty() ? "no warning" : warnings[1].name);
-  EXPECT_EQ(warnings[0].name, name);
-  EXPECT_NE(warnings[0].text.find(part), std::string::npos) << warnings[0].text;
 }
 
 }  // namespace launchsafe::run::test_support

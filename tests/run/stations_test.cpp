@@ -37,7 +37,7 @@ std::vector<double> heat_of(const scene::Scene& scene, const std::function<doubl
   recorder.accumulate(simulation, 1e-7);
   std::vector<double> heat;
   for (std::size_t k = 0; k < recorder.trace().stations.size(); ++k)
-    if (!recorder.trace().stations[k].observation) heat.push_back(recorder.friction(0, k));
+    if (!recorder.trace().stations[k].observation) heat.push_back(recorder.friction(k));
   return heat;
 }
 

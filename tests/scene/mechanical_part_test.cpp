@@ -106,10 +106,10 @@ TEST(MechanicalPart, HasNoSnapshotsOfIgnitionAndOfWhatFollows) {
   Scene scene = quick_scenes().front().file.scene;
   scene.coupling = Coupling::two_way;
   scene.output.snapshot_times = {end_time(scene.load) + 1e-4, end_time(scene.load)};
-  scene.output.snapshot_events = {Event::first_yield, Event::ignition};
+  scene.output.snapshot_events = {Event::peak_pressure, Event::ignition};
   const Scene part = mechanical_part(scene);
   EXPECT_EQ(part.output.snapshot_times, std::vector{end_time(scene.load)});
-  EXPECT_EQ(part.output.snapshot_events, std::vector{Event::first_yield});
+  EXPECT_EQ(part.output.snapshot_events, std::vector{Event::peak_pressure});
   EXPECT_TRUE(parse_scene(to_toml(part), "part.toml"));
 }
 

@@ -167,10 +167,10 @@ TEST(ReadScene, NumbersOfTheOtherShapeAreRefused) {
 
 TEST(ReadScene, EventsOfSnapshotsAreWordsInAnyOrder) {
   const auto file =
-      parse_scene("output.snapshot_events = \"peak-pressure,first-yield\"\n" + small_scene, "small.toml");
+      parse_scene("output.snapshot_events = \"ignition,peak-pressure\"\n" + small_scene, "small.toml");
   ASSERT_TRUE(file) << file.error().message();
-  EXPECT_EQ(file->scene.output.snapshot_events, (std::vector{Event::first_yield, Event::peak_pressure}));
-  EXPECT_NE(to_toml(file->scene).find("snapshot_events = 'first-yield, peak-pressure'"), std::string::npos);
+  EXPECT_EQ(file->scene.output.snapshot_events, (std::vector{Event::peak_pressure, Event::ignition}));
+  EXPECT_NE(to_toml(file->scene).find("snapshot_events = 'peak-pressure, ignition'"), std::string::npos);
   EXPECT_EQ(to_toml(parse_scene(small_scene, "small.toml")->scene).find("snapshot_events"), std::string::npos)
       << "what has no events stays what it was";
   const auto faulty = [](const std::string& words) {

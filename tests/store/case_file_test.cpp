@@ -272,7 +272,7 @@ TEST_F(CaseFile, ParaviewSeesEventsBottomsFacesAndWhatBurns) {
   ASSERT_FALSE(write_case_file(path(), sample_scene(), sample_with_events(), sample_manifest()));
   const std::string description = *read_file(folder() / "case.xdmf");
   for (const char* part :
-       {"<Grid Name=\"particles: first-yield, ignition\"", "Value=\"first-yield, ignition\"",
+       {"<Grid Name=\"particles: peak-pressure, ignition\"", "Value=\"peak-pressure, ignition\"",
         "<Grid Name=\"bottom of the charge\"", "<Grid Name=\"face 1 towards wall\"",
         "<Grid Name=\"launch, burning, gap 0.04 cm\"", "Name=\"skin temperature, gap 0.04 cm\"",
         "Name=\"contact_pressure\" AttributeType=\"Scalar\" Center=\"Node\"",

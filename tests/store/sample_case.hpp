@@ -19,7 +19,7 @@ inline trace::BottomTrace sample_trace() {
   trace.chamber_pressure = {101325, 2e5, 0.1};
   trace.bottom_pressure = {101325, not_a_number, -0.0};
   trace.mean_bottom_pressure = {101325, 5e-324, infinite};
-  trace.friction[0] = {0, 0, 1.1, 2.2, 3.3, 4.4};
+  trace.friction = {0, 0, 1.1, 2.2, 3.3, 4.4};
   return trace;  // the other closure was not traced
 }
 
@@ -54,7 +54,7 @@ inline run::Snapshot sample_snapshot_of_flame(double time) {
 /// Of two events, with two stations, the skin of a gap that burns, and a face of three nodes.
 inline run::Snapshot sample_snapshot_of_events(double time) {
   run::Snapshot snapshot = sample_snapshot_of_flame(time);
-  snapshot.events = {scene::Event::first_yield, scene::Event::ignition};
+  snapshot.events = {scene::Event::peak_pressure, scene::Event::ignition};
   snapshot.bottom_x = {0.6, 0.61, 0.61, 0.62};
   snapshot.bottom_r = {0.02, 0.04, 0, 0.02};
   snapshot.skins = {{.gap = 0.0004, .temperature = {784, not_a_number}, .reaction_degree = {0.5, 0}}};
@@ -99,15 +99,7 @@ inline run::MechanicsResult sample_mechanics() {
   mechanics.snapshots = {sample_snapshot(0.001), sample_snapshot(0.002)};
   mechanics.limiters = {11, 12, 13};
   mechanics.yielded_wall = 0.0875;
-  mechanics.interfaces = {{.body = "wall",
-                           .along_x = true,
-                           .face = 0.065,
-                           .friction_work = 12.5,
-                           .place = {0.1, 0.6},
-                           .friction_heat = {150, not_a_number},
-                           .slid = {0.0018, 4e-5},
-                           .largest_gap = {0, 1e-6},
-                           .overlap = {1e-9, 0}}};
+  mechanics.interfaces = {{.body = "wall", .overlap = 1e-9}};
   return mechanics;
 }
 
@@ -127,7 +119,6 @@ inline run::CaseResult sample_case() {
   run::CaseResult result;
   result.mechanics = sample_mechanics();
   result.gaps = {sample_gap(0.00039), sample_gap(0.0004)};
-  result.gaps[1].with_mechanics = true;
   result.gaps[1].skin.ignition = {0.0176, 1, surface::IgnitionCause::arrhenius, 0.75};
   return result;
 }

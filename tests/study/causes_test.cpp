@@ -26,7 +26,7 @@ run::MechanicsResult launch(double bottom_pressure = pressure, double time = dur
     trace.time.push_back(time * sample / intervals);
     for (auto* history : {&trace.chamber_pressure, &trace.bottom_pressure, &trace.mean_bottom_pressure})
       history->push_back(bottom_pressure);
-    for (auto& friction : trace.friction) friction.push_back(0.0);
+    trace.friction.push_back(0.0);
   }
   return result;
 }

@@ -88,8 +88,7 @@ inline trace::BottomTrace synthetic_trace(double peak, double friction) {
     trace.bottom_pressure.push_back(pressure(t));
     trace.mean_bottom_pressure.push_back(mean);
     trace.chamber_pressure.push_back(496.0 / 140.0 * pressure(t));
-    for (const double share : shares)
-      trace.friction[0].push_back(share * friction * std::pow(t / 18e-3, 3.0));
+    for (const double share : shares) trace.friction.push_back(share * friction * std::pow(t / 18e-3, 3.0));
   }
   return trace;
 }
@@ -125,7 +124,7 @@ inline run::MechanicsResult squared_pressure_mechanics(const scene::Scene& scene
     trace.bottom_pressure[sample] = trace.mean_bottom_pressure[sample] = 101325.0 + 140e6 * p;
     const std::size_t stations = trace.stations.size();
     for (std::size_t station = 0; station < stations; ++station)
-      for (auto& energies : trace.friction) energies[sample * stations + station] = friction_for(60.0) * work;
+      trace.friction[sample * stations + station] = friction_for(60.0) * work;
   }
   return result;
 }

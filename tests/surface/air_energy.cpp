@@ -27,10 +27,8 @@ trace::BottomTrace under(const std::function<double(double)>& pressure, double f
     trace.time.push_back(t);
     for (auto* values : {&trace.bottom_pressure, &trace.chamber_pressure}) values->push_back(pressure(t));
     trace.mean_bottom_pressure.push_back(mean);
-    for (auto& closure : trace.friction) {
-      closure.push_back(friction * t / 18e-3);
-      closure.push_back(0.9 * friction * t / 18e-3);
-    }
+    trace.friction.push_back(friction * t / 18e-3);
+    trace.friction.push_back(0.9 * friction * t / 18e-3);
   }
   return trace;
 }

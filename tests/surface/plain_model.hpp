@@ -36,12 +36,10 @@ inline trace::BottomTrace smooth_launch(int intervals, int rows, double friction
     trace.time.push_back(t);
     for (auto* values : {&trace.bottom_pressure, &trace.chamber_pressure}) values->push_back(pressure(t));
     trace.mean_bottom_pressure.push_back(mean);
-    for (auto& closure : trace.friction) {
-      for (std::size_t station = 0; station < trace.stations.size(); ++station) {
-        const double share =
-            1.0 - 0.2 * static_cast<double>(station) / static_cast<double>(trace.stations.size());
-        closure.push_back(share * friction * std::pow(t / 18e-3, 3.0));
-      }
+    for (std::size_t station = 0; station < trace.stations.size(); ++station) {
+      const double share =
+          1.0 - 0.2 * static_cast<double>(station) / static_cast<double>(trace.stations.size());
+      trace.friction.push_back(share * friction * std::pow(t / 18e-3, 3.0));
     }
   }
   return trace;

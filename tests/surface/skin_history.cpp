@@ -58,12 +58,11 @@ TEST(Ignites, LooksAtEveryStationThatMayBeTheHottest) {
   for (const bool spike : {false, true}) {
     trace::BottomTrace trace = smooth_launch(50, 17, 0.5 * friction_energy);
     const std::size_t stations = trace.stations.size();
-    for (auto& closure : trace.friction)
-      for (std::size_t i = 0; i < closure.size(); ++i) {
-        const std::size_t sample = i / stations, station = i % stations;
-        if (sample > station) closure[i] += 0.01 * friction_energy;
-        if (spike && station == 15 && sample == 25) closure[i] += 3.0 * friction_energy;
-      }
+    for (std::size_t i = 0; i < trace.friction.size(); ++i) {
+      const std::size_t sample = i / stations, station = i % stations;
+      if (sample > station) trace.friction[i] += 0.01 * friction_energy;
+      if (spike && station == 15 && sample == 25) trace.friction[i] += 3.0 * friction_energy;
+    }
     EXPECT_EQ(IgnitionOfGaps(model, trace)(1e-4), spike);
     EXPECT_EQ(integrate_skin(model, trace, 1e-4).ignition.has_value(), spike);
   }
@@ -137,7 +136,7 @@ TEST(SkinHistory, NotANumberInTheTraceIsNoVerdict) {
     trace::BottomTrace trace = smooth_launch(300, 2, 3.0 * friction_energy);
     if (which == 0) trace.bottom_pressure[250] = std::nan("");
     if (which == 1) trace.mean_bottom_pressure[250] = std::nan("");
-    if (which == 2) trace.friction[0][250 * 4 + 3] = std::nan("");
+    if (which == 2) trace.friction[250 * 4 + 3] = std::nan("");
     const SkinHistory history = integrate_skin(plain_model(), trace, 3e-4);
     EXPECT_FALSE(history.ignition.has_value()) << which;
     EXPECT_TRUE(std::isnan(maximum_at_stations(history, trace).temperature)) << which;
@@ -146,7 +145,7 @@ TEST(SkinHistory, NotANumberInTheTraceIsNoVerdict) {
 
 TEST(SkinHistory, ClosureThatWasNotTracedIsNoVerdict) {
   trace::BottomTrace trace = smooth_launch(10, 1, friction_energy);
-  trace.friction[0].clear();
+  trace.friction.clear();
   EXPECT_TRUE(std::isnan(maximum_at_stations(integrate_skin(SkinModel{}, trace, 3e-4), trace).temperature));
 }
 

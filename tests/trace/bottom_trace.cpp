@@ -19,10 +19,7 @@ BottomTrace example(std::size_t samples) {
     trace.chamber_pressure.push_back(10.0 + value);
     trace.bottom_pressure.push_back(20.0 + value);
     trace.mean_bottom_pressure.push_back(9.5 + value * value);
-    for (auto& closure : trace.friction) {
-      closure.push_back(value);
-      closure.push_back(100.0 + value);
-    }
+    trace.friction.insert(trace.friction.end(), {value, 100.0 + value});
   }
   return trace;
 }
@@ -40,8 +37,7 @@ TEST(Trace, OfRingsHasNoObservationPoints) {
   ASSERT_EQ(rings.stations.size(), 1u);
   EXPECT_EQ(rings.stations[0].name, "S1");
   EXPECT_EQ(rings.bottom_pressure, whole.bottom_pressure);
-  for (const auto& energy : rings.friction)
-    EXPECT_EQ(energy, (std::vector{100.0, 101.0, 102.0, 103.0, 104.0}));
+  EXPECT_EQ(rings.friction, (std::vector{100.0, 101.0, 102.0, 103.0, 104.0}));
 }
 
 TEST(Trace, UntilATimeEndsWithTheLastSampleBefore) {
@@ -52,7 +48,7 @@ TEST(Trace, UntilATimeEndsWithTheLastSampleBefore) {
     EXPECT_EQ(each.samples(), 6u);
     EXPECT_EQ(each.time.back(), whole.time[5]);
     EXPECT_EQ(each.mean_bottom_pressure[3], whole.mean_bottom_pressure[3]);
-    EXPECT_EQ(each.friction[0].size(), 12u);
+    EXPECT_EQ(each.friction.size(), 12u);
   }
   EXPECT_EQ(until(whole, 2.0 * whole.time.back()).samples(), 9u);
 }
@@ -75,7 +71,7 @@ TEST(Interpolate, WithoutAnAnswerGivesNotANumber) {
 TEST(Trace, StretchedKeepsPressuresAndEnergiesAndTakesLonger) {
   const BottomTrace whole = example(9), longer = stretched(whole, 1.5);
   EXPECT_NEAR(integral(longer), 1.5 * integral(whole), 1e-12 * integral(whole));
-  EXPECT_EQ(longer.friction[0], whole.friction[0]);
+  EXPECT_EQ(longer.friction, whole.friction);
   EXPECT_EQ(longer.bottom_pressure, whole.bottom_pressure);
 }
 
@@ -88,7 +84,7 @@ TEST(Trace, MirroredIsAsFarOnTheOtherSide) {
   ASSERT_TRUE(lowered);
   EXPECT_NEAR(lowered->bottom_pressure[3], whole.bottom_pressure[3] / 1.1, 1e-12);
   EXPECT_EQ(lowered->chamber_pressure, whole.chamber_pressure);
-  EXPECT_EQ(lowered->friction[0], whole.friction[0]) << "0 stays 0";
+  EXPECT_EQ(lowered->friction, whole.friction) << "0 stays 0";
   EXPECT_FALSE(mirrored(whole, example(6)));
 }
 

@@ -2,12 +2,12 @@
 // one pressure.
 //
 // The skin that burns is thinner than a particle, so that a particle has both in parts of their own: the
-// explosive on its isentrope (unreacted.hpp), which burning in microseconds does not heat, and the gas
+// explosive on its isentrope (jwl.hpp), which burning in microseconds does not heat, and the gas
 // with its own temperature (vlw.hpp). Sound crosses the particle within a step or two, so that the
 // pressures are equal; heat does not cross it, so that the temperatures are not.
 #pragma once
 
-#include "launchsafe/materials/unreacted.hpp"
+#include "launchsafe/materials/jwl.hpp"
 #include "launchsafe/materials/vlw.hpp"
 
 namespace launchsafe::materials {
@@ -40,7 +40,7 @@ class BurningMixture {
  public:
   /// `solid_density`: kg/m3 of the explosive at rest. `tension_cutoff` (Pa): the explosive tears where its
   /// pressure falls below minus this.
-  BurningMixture(const UnreactedEos& solid, double solid_density, const ProductGas& gas,
+  BurningMixture(const JwlParameters& solid, double solid_density, const ProductGas& gas,
                  double tension_cutoff);
 
   /// A particle at V of which nothing has burnt, at the pressure of the isentrope. Where it is torn, the
@@ -54,15 +54,9 @@ class BurningMixture {
   BurningState advance(const BurningState& before, const BurningStep& step) const;
 
   /// Pressure (Pa), bulk modulus (Pa) and mechanical energy (J/m3, from rest) of the explosive at V.
-  double solid_pressure(double volume) const {
-    return std::visit([volume](const auto& eos) { return eos.pressure(volume); }, solid_);
-  }
-  double solid_modulus(double volume) const {
-    return std::visit([volume](const auto& eos) { return eos.bulk_modulus(volume); }, solid_);
-  }
-  double solid_energy(double volume) const {
-    return std::visit([volume](const auto& eos) { return eos.energy(volume); }, solid_);
-  }
+  double solid_pressure(double volume) const { return jwl_isentropic_pressure(solid_, volume); }
+  double solid_modulus(double volume) const { return jwl_isentropic_bulk_modulus(solid_, volume); }
+  double solid_energy(double volume) const { return jwl_isentropic_energy(solid_, volume); }
   /// The gas in a state of which something has burnt.
   GasState gas_of(const BurningState& state) const {
     return gas_.at(state.gas_temperature, state.gas_volume);
@@ -74,7 +68,7 @@ class BurningMixture {
   int parts_of_step(const BurningState& before, const BurningStep& step) const;
   BurningState advance_part(const BurningState& before, const BurningStep& step) const;
 
-  UnreactedEos solid_;
+  JwlParameters solid_;
   double solid_density_;
   ProductGas gas_;
   double torn_volume_ = 1;  ///< V of the explosive at the tension cut-off

@@ -2,17 +2,17 @@
 // cracks, and the heat of their sliding.
 #pragma once
 
+#include "launchsafe/materials/jwl.hpp"
 #include "launchsafe/materials/kinetics.hpp"
 #include "launchsafe/materials/law.hpp"
-#include "launchsafe/materials/unreacted.hpp"
-#include "launchsafe/materials/visco_scram_step.hpp"
+#include "launchsafe/materials/visco_scram.hpp"
 
 namespace launchsafe::materials {
 
 struct Charge {
   ViscoScramParameters strength;
   double density = 1717.0;  ///< kg/m3, before launch [P]
-  UnreactedEos eos;
+  JwlParameters eos = unreacted_composition_b();
   double tension_cutoff = 5e6;     ///< Pa, > 0: the pressure never falls below -cutoff
   double specific_heat = 1780.0;   ///< J/(kg K)
   double conductivity = 0.246;     ///< W/(m K)
@@ -51,12 +51,7 @@ struct Charge {
   /// bottom of the 155 mm shell alternate by 0.17 %, a tenth in steel and a fiftieth here by 0.09 %, none
   /// here by 0.05 %, on cells of 2.5 mm under 50 MPa; G1 changes by 0.4 K, other points by 0.04 K.
   double hourglass_modulus() const { return 0.2 * shear_modulus(); }
-  double bulk_modulus() const {
-    return std::visit([](const auto& each) { return each.bulk_modulus_at_rest(); }, eos);
-  }
-  double grueneisen() const {
-    return std::visit([](const auto& each) { return each.grueneisen(); }, eos);
-  }
+  double bulk_modulus() const { return jwl_bulk_modulus_at_rest(eos); }
   double heat_capacity() const { return specific_heat; }
   double heat_conductivity() const { return conductivity; }
 
@@ -83,7 +78,7 @@ struct Charge {
 class Charge::Integrator {
  public:
   explicit Integrator(const Charge& charge)
-      : charge_(charge), isentrope_(isentrope_of(charge.eos)), solid_(charge.strength) {}
+      : charge_(charge), isentrope_(charge.eos), solid_(charge.strength) {}
   void set_step(double dt) {
     if (dt < dt_ || dt > dt_) solid_.set_step(dt);
     dt_ = dt;
@@ -95,14 +90,12 @@ class Charge::Integrator {
     using math::max;
     using math::select;
     Response<Real> response;
-    const Real isentropic = std::visit(
-        [&](const auto& isentrope) { return isentrope.pressure(increment.volume_after - Real(1.0)); },
-        isentrope_);
+    const Real isentropic = isentrope_.pressure(increment.volume_after - Real(1.0));
     const Real cutoff(-charge_.tension_cutoff);
     response.tension_cutoff = select(isentropic < cutoff, Real(1.0), Real(0.0));
     response.pressure = max(isentropic, cutoff);
 
-    const ViscoScramStep::State<Real> turned = solid_state(s, twice(increment.rotation));
+    const ViscoScram::State<Real> turned = solid_state(s, twice(increment.rotation));
     const auto end = solid_.update(turned, vector_of(increment.deviator), response.pressure);
     keep(s, end.state);
     response.deviator_before = deviator_of(turned.total);
@@ -118,17 +111,17 @@ class Charge::Integrator {
   template <class Real>
   Real bulk_modulus(const State<Charge, Real>&, Real volume, Real) const {
     using math::max;
-    return max(std::visit([&](const auto& eos) { return eos.bulk_modulus(volume); }, charge_.eos), Real(0.0));
+    return max(jwl_isentropic_bulk_modulus(charge_.eos, volume), Real(0.0));
   }
 
  private:
   /// What Visco-SCRAM needs of a particle's state, turned; `q` is twice the step's rotation.
   template <class Real>
-  static ViscoScramStep::State<Real> solid_state(const State<Charge, Real>& s, math::Rotation<Real> q) {
+  static ViscoScram::State<Real> solid_state(const State<Charge, Real>& s, math::Rotation<Real> q) {
     const auto turned = [&](std::size_t field) {
       return rotate_by_twice(math::DeviatorVector<Real>{s[field], s[field + 1], s[field + 2]}, q);
     };
-    ViscoScramStep::State<Real> result;
+    ViscoScram::State<Real> result;
     result.total = turned(stress);
     for (std::size_t n = 0; n < result.elements.size(); ++n)
       result.elements[n] = turned(second_element + 3 * n);
@@ -136,7 +129,7 @@ class Charge::Integrator {
     return result;
   }
   template <class Real>
-  static void keep(State<Charge, Real>& s, const ViscoScramStep::State<Real>& solid) {
+  static void keep(State<Charge, Real>& s, const ViscoScram::State<Real>& solid) {
     const auto put = [&](std::size_t field, const math::DeviatorVector<Real>& value) {
       s[field] = value.hoop;
       s[field + 1] = value.difference;
@@ -148,8 +141,8 @@ class Charge::Integrator {
   }
 
   Charge charge_;
-  UnreactedIsentrope isentrope_;
-  ViscoScramStep solid_;
+  JwlIsentrope isentrope_;
+  ViscoScram solid_;
   double dt_ = 0;
 };
 

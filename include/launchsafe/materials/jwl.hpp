@@ -55,6 +55,12 @@ Real jwl_isentropic_bulk_modulus(const JwlParameters& m, Real v) {
          Real(thermal * (1.0 + m.omega)) * pow(v, Real(-1.0 - m.omega));
 }
 
+/// Energy (J per m3 at rest, from rest) on that isentrope at relative volume V > 0.
+double jwl_isentropic_energy(const JwlParameters& m, double volume);
+
+/// Bulk modulus (Pa) at V = 1.
+double jwl_bulk_modulus_at_rest(const JwlParameters& m);
+
 /// What a step of the charge pays for its pressure: p(V) of `jwl_isentropic_pressure` near V = 1, where
 /// launches are, without exponentials: p(1) + x P(x), x = V - 1. The interval, at most [0.85, 1.1], is as
 /// wide as the law's constants allow for the polynomial to be as exact as the closed form can be computed;
@@ -87,36 +93,15 @@ class JwlIsentrope {
   double at_rest_ = 0, lowest_ = -0.15, highest_ = 0.1;
 };
 
-// --- an explosive before it reacts, on the isentrope through V = 1, where its pressure vanishes ---
-
 /// What constants must satisfy beyond the range of each.
 struct ConstantsFault {
   std::vector<std::string> keys;  ///< that could be meant, the likeliest first; without a prefix
   std::string found, allowed;
 };
+/// Fault of a law that has not the shape of an unreacted explosive's: R1 above R2, and it resists
+/// compression.
+std::optional<ConstantsFault> fault_of(const JwlParameters& m);
 
-struct UnreactedJwl {
-  JwlParameters constants = unreacted_composition_b();
-
-  using Isentrope = JwlIsentrope;
-  Isentrope isentrope() const { return JwlIsentrope(constants); }
-
-  /// Pressure (Pa, compression positive), bulk modulus -V dp/dV (Pa), and energy (J per m3 at rest, from
-  /// rest) on the isentrope at relative volume V.
-  double pressure(double volume) const { return jwl_isentropic_pressure(constants, volume); }
-  template <class Real>
-  Real bulk_modulus(Real volume) const {
-    return jwl_isentropic_bulk_modulus(constants, volume);
-  }
-  double energy(double volume) const;
-  /// Pa, at rest.
-  double bulk_modulus_at_rest() const;
-  /// Grueneisen coefficient: temperature on the isentrope goes with V to its negative.
-  double grueneisen() const { return constants.omega; }
-
-  /// It has the shape of an unreacted explosive's: it resists compression.
-  std::optional<ConstantsFault> fault() const;
-  static std::vector<keys::Key<UnreactedJwl>> parameters();  ///< keys of scene files
-};
+std::vector<keys::Key<JwlParameters>> jwl_keys();  ///< keys of scene files
 
 }  // namespace launchsafe::materials

@@ -6,6 +6,8 @@
 #include "launchsafe/materials/linear_elastic.hpp"
 #include "launchsafe/materials/steel.hpp"
 
+#include <boost/mp11/algorithm.hpp>
+
 namespace launchsafe::materials {
 
 using Law = std::variant<Steel, Charge, LinearElastic>;

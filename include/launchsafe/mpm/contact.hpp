@@ -38,9 +38,6 @@ struct FaceLine {
   std::vector<double> along, across;
 };
 
-/// Whether the radius, which an area is made of, is across or along the face.
-enum class FaceMeasure { radius_across, radius_along };
-
 /// A node and its share in the relative displacement of a row, other face less own face.
 struct PairShare {
   std::size_t node;  ///< index into the face's line
@@ -59,22 +56,21 @@ struct PairRow {
 /// whole.
 inline constexpr double held_overhang = 0.1;
 
-/// Pairs two faces at their present places. One row a node of the own face; `rows` is used again without
-/// allocation once it has had the size.
-void pair_faces(const FaceLine& own, const FaceLine& other, FaceMeasure measure, std::vector<PairRow>& rows);
+/// Pairs two faces at their present places. `along_x`: they run along x, so that the radius, which an area is
+/// made of, is across them. One row a node of the own face; `rows` is used again without allocation once it
+/// has had the size.
+void pair_faces(const FaceLine& own, const FaceLine& other, bool along_x, std::vector<PairRow>& rows);
 
 /// A node of a face that can slide, for reports and tests. Tractions are those of the last step.
 struct FaceState {
-  double place = 0;          ///< m, at rest: x along a side, r along an end
-  double area = 0;           ///< m2 per radian, 0 where it meets nothing
-  double gap = 0;            ///< m
-  double pressure = 0;       ///< Pa, compression positive
-  double shear = 0;          ///< Pa, on the other body: along x on a side, along r on an end
-  double friction_heat = 0;  ///< J/m2, since the start
-  double slid = 0;           ///< m, path of sliding since the start, in both directions
-  double slip = 0;  ///< m, by which the other body has slid since the start, in the direction of `shear`
-  double largest_gap = 0;  ///< m, the largest since the start
-  double overlap = 0;      ///< m, the largest since the start
+  double place = 0;     ///< m, at rest: x along a side, r along an end
+  double x = 0, r = 0;  ///< m, at present
+  double area = 0;      ///< m2 per radian, 0 where it meets nothing
+  double gap = 0;       ///< m
+  double pressure = 0;  ///< Pa, compression positive
+  double shear = 0;     ///< Pa, on the other body: along x on a side, along r on an end
+  double slip = 0;      ///< m, by which the other body has slid since the start, in the direction of `shear`
+  double overlap = 0;   ///< m, the largest since the start
 };
 
 class Contact {
@@ -95,19 +91,8 @@ class Contact {
   std::size_t faces() const { return faces_.size(); }
   /// Index into Scene::interfaces of a face.
   std::size_t interface_of(std::size_t face) const { return faces_[face].interface; }
-  bool is_along_x(std::size_t face) const { return faces_[face].along_x; }
-  /// m, at rest: r of a side, x of an end.
-  double face_at(std::size_t face) const { return faces_[face].own.across_rest; }
-  /// Work of friction on a face since the start, J per radian, turned into heat.
-  double friction_work(std::size_t face) const;
-  std::vector<FaceState> state_of(std::size_t face) const;
-
-  /// The nodes that the states of a face are of: an index into the bodies' nodes, and those of each in there.
-  struct FaceNodes {
-    std::size_t nodes;
-    const std::vector<std::size_t>& indices;
-  };
-  FaceNodes nodes_of(std::size_t face) const { return {faces_[face].own.nodes, faces_[face].own.indices}; }
+  /// By node of the charge's face; `nodes` are those of the bodies at present.
+  std::vector<FaceState> state_of(std::size_t face, const std::vector<Nodes>& nodes) const;
 
  private:
   struct Velocity {
@@ -147,8 +132,7 @@ class Contact {
   struct Face {
     std::size_t interface;
     bool along_x;
-    double outward;  ///< 1 or -1: from the charge, across the face
-    FaceMeasure measure;
+    double outward;             ///< 1 or -1: from the charge, across the face
     std::size_t first_row = 0;  ///< of as many rows as the own side has nodes
     FaceSide own, other;
   };
@@ -165,15 +149,11 @@ class Contact {
     /// kg, impulse per unit of relative velocity along the normal and along the face.
     double normal_inertia = 0, slide_inertia = 0;
     double area = 0;
-    double gap = 0;                       ///< m, at the begin of the step
-    double target = 0;                    ///< m/s, least opening speed
-    double normal = 0, slide = 0;         ///< kg m/s, impulses of the step, positive as pressure
-    double last_slide = 0;                ///< of the step before
-    double opening = 0, sliding = 0;      ///< m/s, at the end of the last step
-    double friction_work = 0;             ///< J
-    double friction_heat = 0;             ///< J/m2
-    double slid = 0, slip = 0;            ///< m, see FaceState; the slip of the row's direction
-    double largest_gap = 0, overlap = 0;  ///< m, see FaceState
+    double gap = 0;                   ///< m, at the begin of the step
+    double target = 0;                ///< m/s, least opening speed
+    double normal = 0, slide = 0;     ///< kg m/s, impulses of the step, positive as pressure
+    double opening = 0, sliding = 0;  ///< m/s, at the end of the last step
+    double slip = 0, overlap = 0;     ///< m, see FaceState; the slip in the row's direction
   };
 
   void add_face(const scene::Scene& scene, const scene::GridLines& lines, const std::vector<Nodes>& nodes,

@@ -1,27 +1,11 @@
 // The launch as a material point computation, in either formulation.
 #pragma once
 
+#include "launchsafe/mpm/energy.hpp"
 #include "launchsafe/mpm/total_lagrangian.hpp"
 #include "launchsafe/mpm/updated_lagrangian.hpp"
 
 namespace launchsafe::mpm {
-
-/// Energy balance since the start, J per radian.
-struct EnergyTotals {
-  /// Of the motion relative to the mass centre, with scaled inertia, centred in time: velocities are half a
-  /// step away from stresses (leapfrog), and m v_old v_new/2 is what the discrete work balances.
-  double kinetic = 0;
-  double internal = 0;  ///< stress power, and what is stored against hourglassing
-  double external = 0, body_force = 0;
-  /// Dissipated by damping, by the PIC share and by the transfer from nodes to particles and back (FLIP).
-  double damping = 0;
-  double plastic = 0, viscous = 0, crack = 0;
-  double hourglass = 0;    ///< stored against hourglassing (part of `internal`)
-  double contact = 0;      ///< taken out by contact: by friction and by faces that meet
-  double charge_work = 0;  ///< stress power of the charge (part of `internal`)
-  /// Heat of the charge's sliding layers with localisation 1, mu_d p V |de|; no part of the balance.
-  double charge_friction = 0;
-};
 
 /// Number of particle-steps on which a limiter acted, the particle was off the grid, or its cell was inverted
 /// or stretched beyond what the strain measure describes.
@@ -45,7 +29,7 @@ class Simulation {
   const scene::Scene& scene() const { return scene_; }
   double chamber_pressure() const { return pressure_; }  ///< Pa
   /// The balance at the begin of the last step, where all its parts are known at one time.
-  const EnergyTotals& energy() const { return balance_; }
+  const EnergyBalance& energy() const { return balance_; }
   const EventCounts& events() const { return events_; }
   /// Axial momentum relative to the frame, kg m/s per radian, with the inertial factors that are not common
   /// to all: what no forces between particles change.
@@ -69,10 +53,6 @@ class Simulation {
   template <class F>
   void for_each_body(F&& f) const {
     for (const AnyBody& body : bodies_) f(particle_fields_of(body));
-  }
-  template <class F>
-  void for_each_body(F&& f) {
-    for (AnyBody& body : bodies_) std::visit([&](auto& one) { f(one.particles); }, body);
   }
 
   /// The formulation of the scene; null for the other one.
@@ -111,8 +91,8 @@ class Simulation {
   double time_ = 0;
   double pressure_ = 0;  ///< Pa, in the chamber at the present time
   std::uint64_t particles_ = 0;
-  EnergyTotals energy_;   ///< at the present time, without the kinetic energy
-  EnergyTotals balance_;  ///< at the begin of the last step
+  EnergyBalance energy_;   ///< at the present time, without the kinetic energy
+  EnergyBalance balance_;  ///< at the begin of the last step
   EventCounts events_;
 };
 

@@ -29,7 +29,6 @@ class TotalLagrangian {
  public:
   /// Holds references to scene and bodies, which must outlive it at the same address.
   TotalLagrangian(const scene::Scene& scene, std::vector<AnyBody>& bodies);
-  TotalLagrangian(const scene::Scene&& scene, std::vector<AnyBody>& bodies) = delete;
 
   /// Recomputes the nodal momenta and velocities from the particles, after velocities were set.
   void reset_grid();
@@ -76,7 +75,6 @@ class TotalLagrangian {
   double chamber_flow() const;
   void move_row(Nodes& nodes, int row, const StepInput& input, NodeTotals& totals) const;
   void advance_body(std::size_t index, const StepInput& input);
-  void run_phases(const StepInput& input);
 
   const scene::Scene& scene_;
   std::vector<AnyBody>& bodies_;

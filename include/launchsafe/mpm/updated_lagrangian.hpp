@@ -15,7 +15,6 @@ class UpdatedLagrangian {
  public:
   /// Holds references to scene and bodies, which must outlive it at the same address.
   UpdatedLagrangian(const scene::Scene& scene, std::vector<AnyBody>& bodies);
-  UpdatedLagrangian(const scene::Scene&& scene, std::vector<AnyBody>& bodies) = delete;
 
   /// Clears the grid and sums the particles' mass and momentum on it again.
   void reset_grid();

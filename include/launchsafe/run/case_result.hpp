@@ -1,6 +1,7 @@
 // What one case came to: the mechanics once, and a skin history for every gap.
 #pragma once
 
+#include "launchsafe/mpm/energy.hpp"
 #include "launchsafe/scene/constants.hpp"
 #include "launchsafe/surface/skin.hpp"
 
@@ -10,7 +11,7 @@
 
 namespace launchsafe::run {
 
-using scene::model_version;
+using mpm::EnergyBalance, scene::model_version;
 
 /// A member of a result as case files have it, described once.
 template <class Member>
@@ -38,14 +39,7 @@ enum class RunStatus {
 inline constexpr RunStatus last_status = RunStatus::outside_gas_law;
 std::string to_string(RunStatus status);
 
-/// Running sums of the energy balance, J of the whole shell; see `energy_terms`.
-struct EnergyBalance {
-  double kinetic = 0, internal = 0, external = 0, body_force = 0, damping = 0, contact = 0;
-  double plastic = 0, viscous = 0, crack = 0, hourglass = 0;
-  double charge_work = 0, charge_friction = 0;
-  double scale() const;  ///< what drift is measured against, > 0
-  double drift() const;  ///< (kinetic + internal + damping + contact - external - body_force)/scale
-};
+/// The terms of the energy balance, of the whole shell.
 inline constexpr std::array energy_terms{
     Stored{"kinetic_energy", &EnergyBalance::kinetic, "J",
            "kinetic energy relative to the frame, with the scaled inertia"},
@@ -73,9 +67,6 @@ inline constexpr std::array energy_terms{
 /// where that is more: drift is not judged on less, where it would be the first cells' share in the first
 /// steps, or round-off where there is no load.
 double least_judged_energy(const scene::Scene& scene);
-
-/// Impulse (N s) of a hundredth of an atmosphere on the base over the launch: likewise for momentum.
-double least_judged_impulse(const scene::Scene& scene);
 
 /// A row of the monitor history.
 struct MonitorSample {
@@ -185,24 +176,10 @@ struct MaterialMass {
 /// Adds to the entry of a material, at the end where there is none.
 void add_mass(std::vector<MaterialMass>& masses, const std::string& material, double mass);
 
-/// How one body that can slide on the charge did so until the end of the run, by the nodes of the charge's
-/// face.
+/// A face of the charge on which a body can slide, until the end of the run.
 struct InterfaceResult {
   std::string body;
-  bool along_x = false;
-  double face = 0, friction_work = 0;
-  std::vector<double> place, friction_heat, slid, largest_gap, overlap;  ///< by node
-};
-inline constexpr std::tuple stored_interface{
-    Stored{"body", &InterfaceResult::body, "none", "the body that touches the charge"},
-    Stored{"along_x", &InterfaceResult::along_x, "1", "1 for a side of the charge, 0 for an end"},
-    Stored{"face", &InterfaceResult::face, "m", "initial r of a side, x of an end"},
-    Stored{"friction_work", &InterfaceResult::friction_work, "J", "work of friction, turned into heat"},
-    Stored{"place", &InterfaceResult::place, "m", "initial x along a side, r along an end"},
-    Stored{"friction_heat", &InterfaceResult::friction_heat, "J/m2", "heat of friction since the start"},
-    Stored{"slid", &InterfaceResult::slid, "m", "way slid since the start, to and fro added up"},
-    Stored{"largest_gap", &InterfaceResult::largest_gap, "m", "by which the faces parted"},
-    Stored{"overlap", &InterfaceResult::overlap, "m", "by which the faces passed into each other"},
+  double overlap = 0;  ///< m, the largest by which the faces passed into each other
 };
 
 /// Plastic strain of steel beyond which a wall counts as yielded: that of the proof stress Rp0.2.
@@ -282,7 +259,6 @@ struct GapResult {
   surface::Maximum at_stations;  ///< T_max over the stations, the whole bottom: what verdicts use
   surface::Maximum at_points;    ///< over the observation points; NaN without any
   surface::AirEnergy air;        ///< what the skin took from the air
-  bool with_mechanics = false;   ///< integrated inside the mechanics rather than on its trace
   std::optional<CombustionHistory> combustion;  ///< of one that ignited, where the coupling is two-way
 };
 

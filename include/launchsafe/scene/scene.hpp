@@ -146,8 +146,8 @@ struct ObservationPoint {
 };
 
 /// Instants that a snapshot may be of, in the order in which a launch has them as a rule.
-enum class Event { first_crack_growth, first_yield, peak_pressure, largest_slip, ignition };
-/// The words of all of them in files, by the event's number: "first-crack-growth", ...
+enum class Event { peak_pressure, ignition };
+/// The words of all of them in files, by the event's number: "peak-pressure", ...
 const std::vector<std::string>& event_words();
 inline const std::string& word_of(Event event) { return event_words()[static_cast<std::size_t>(event)]; }
 

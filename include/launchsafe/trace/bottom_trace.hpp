@@ -1,10 +1,10 @@
 // What the mechanics hands to the surface: the history of the charge bottom, independent of any gap.
 #pragma once
 
-#include "launchsafe/materials/friction_closure.hpp"
-
+#include <cstddef>
 #include <optional>
 #include <string>
+#include <vector>
 
 namespace launchsafe::trace {
 
@@ -18,9 +18,6 @@ struct Station {
   bool observation = false;  ///< false for an annulus
 };
 
-/// Friction closures whose heat a trace carries: all that heat.
-inline constexpr std::size_t traced_closures = materials::friction_closures.size();
-
 /// Samples at increasing times, the first at t = 0. Friction is kept as energy since the start, so thinning
 /// the trace loses none of it; pressure as the value and as the mean over the interval that ends at the
 /// sample.
@@ -30,9 +27,9 @@ struct BottomTrace {
   std::vector<double> chamber_pressure;      ///< Pa
   std::vector<double> bottom_pressure;       ///< Pa, area mean of the axial compression over the bottom row
   std::vector<double> mean_bottom_pressure;  ///< Pa, over the interval ending here (first entry: the value)
-  /// friction[closure][sample * stations + station]: friction energy since the start, J per m3 of charge,
-  /// with localisation 1 (bulk).
-  std::array<std::vector<double>, traced_closures> friction;
+  /// [sample * stations + station]: friction energy since the start, J per m3 of charge, with localisation 1
+  /// (bulk).
+  std::vector<double> friction;
 
   std::size_t samples() const { return time.size(); }
   /// Of a station; empty for one that the trace has not.
