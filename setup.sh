@@ -4,7 +4,7 @@
 set -euo pipefail
 
 packages=(
-  g++ cmake ninja-build
+  g++ cmake ninja-build make
   libeigen3-dev libboost-dev libtbb-dev libhdf5-dev libsqlite3-dev libssl-dev libcli11-dev libfmt-dev libtomlplusplus-dev nlohmann-json3-dev
   libkainjow-mustache-dev
   gnuplot-nox

@@ -29,8 +29,7 @@ set(data_dir "${CMAKE_INSTALL_DATADIR}/launchsafe")
 install(DIRECTORY studies DESTINATION "${data_dir}" COMPONENT program
   FILES_MATCHING PATTERN "*.toml" PATTERN "*.json" PATTERN "*.csv" PATTERN "*.txt" PATTERN "*.md" PATTERN "*.cpp" PATTERN "*.sbatch")
 install(DIRECTORY reports DESTINATION "${data_dir}" COMPONENT program
-  FILES_MATCHING PATTERN "accuracy*.json"
-  PATTERN "*.md" PATTERN "*.html" PATTERN "*.svg" PATTERN "*.png")
+  FILES_MATCHING PATTERN "*.md" PATTERN "*.html" PATTERN "*.svg" PATTERN "*.png")
 foreach(folder launchsafe launchsafe/mpm)
   install(FILES include/${folder}/README.md DESTINATION "${data_dir}/include/${folder}" COMPONENT program)
 endforeach()

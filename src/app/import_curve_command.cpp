@@ -15,38 +15,12 @@ struct ImportCurveArguments {
   std::string command;                    ///< the whole command, to be repeated in a shell
 };
 
-using scene::pressure_text, scene::time_text;
-
 /// A record, and what was made of it.
 struct Import {
   scene::PressureCurve record;
   scene::CleanedRecord cleaned;
   scene::Load load;  ///< the curve as a load
 };
-
-/// What was done, a line each. `sha256`: of the record.
-std::string what_was_done(const ImportCurveArguments& arguments, const Import& import,
-                          const std::string& sha256) {
-  const scene::CleanedRecord& cleaned = import.cleaned;
-  const scene::PressureCurve &record = import.record, &curve = cleaned.curve;
-  return told("import_curve.txt", {{"record", arguments.record.filename().string()},
-                                   {"sha256", sha256},
-                                   {"points", record.time.size()},
-                                   {"from", time_text(record.time.front())},
-                                   {"to", time_text(record.time.back())},
-                                   {"offset", pressure_text(cleaned.offset)},
-                                   {"given", arguments.offset.has_value()},
-                                   {"quiet", cleaned.quiet_points},
-                                   {"trigger", pressure_text(cleaned.trigger)},
-                                   {"start", time_text(cleaned.start)},
-                                   {"before", cleaned.points_before},
-                                   {"peak", pressure_text(cleaned.peak)},
-                                   {"peak_time", time_text(cleaned.peak_time)},
-                                   {"end", pressure_text(curve.pressure.back())},
-                                   {"end_time", time_text(curve.time.back())},
-                                   {"below", cleaned.points_below_zero},
-                                   {"lowest", pressure_text(-cleaned.lowest)}});
-}
 
 /// The lowest and the highest point of each of so many parts: a picture resolves no more.
 constexpr std::size_t drawn_parts = 2000;
@@ -90,6 +64,7 @@ Json json_of(const Import& import) {
           {"start_ms", 1e3 * cleaned.start},
           {"peak_MPa", 1e-6 * cleaned.peak},
           {"peak_time_ms", 1e3 * cleaned.peak_time},
+          {"end_MPa", 1e-6 * cleaned.curve.pressure.back()},
           {"end_ms", 1e3 * cleaned.curve.time.back()},
           {"uncovered", run::uncovered_load(import.load)}};
 }
@@ -99,34 +74,34 @@ void write(const ImportCurveArguments& arguments, const Import& import, const st
            Console& console) {
   const path& file = *arguments.output;
   if (file.extension() != ".csv")
-    console.refuse(fmt::format(
-        "--output: found \"{}\"; allowed: the name of a CSV file, such as pressure.csv", file.string()));
-  const path folder = store::folder_of(file);
-  const std::string csv = scene::csv_of(import.cleaned.curve, text);
-  path picture = file;
-  picture.replace_extension(".svg");
+    throw Ended{fmt::format("--output: found \"{}\"; allowed: the name of a CSV file, such as pressure.csv",
+                            file.string())};
   const auto svg = report::to_svg(plot_of(arguments, import));
-  NamedTexts texts{{file.filename(), csv}};
-  if (svg) texts.push_back({picture.filename(), *svg});
-  write_where_absent(folder, texts, console);
+  NamedTexts texts{{file.filename(), scene::csv_of(import.cleaned.curve, text)}};
+  if (svg) texts.push_back({path(file).replace_extension(".svg").filename(), *svg});
+  const std::vector<std::string> places = write_where_absent(store::folder_of(file), texts);
   if (!svg) console.remark("no picture: " + svg.error().message);
   console.print_text(fmt::format(
-      "\nwrote {}{}\nnext: {}\n", file.string(), svg ? " and " + picture.string() : "",
+      "\nwrote {}\nnext: {}\n", fmt::join(places, " and "),
       shell_command({"launchsafe", "init", "--calibre", "155 mm", "--curve", file.string(), "-o", "shell"})));
   console.print_json({{"file", file.string()}});
 }
 
 ExitCode perform(const ImportCurveArguments& arguments, Console& console) {
   const std::string file = arguments.record.string();
-  const std::string text = console.value_of(scene::read_text_file(file, scene::largest_curve));
+  const std::string text = scene::read_text_file(file, scene::largest_curve);
   Import import;
-  import.record = console.value_of(scene::parse_gauge_record(text, file, arguments.pressure));
-  import.cleaned = console.value_of(scene::clean(import.record, {arguments.offset, arguments.trigger}, file));
+  import.record = scene::parse_gauge_record(text, file, arguments.pressure);
+  import.cleaned = scene::clean(import.record, {arguments.offset, arguments.trigger}, file);
   import.load.curve_time = import.cleaned.curve.time;
   import.load.curve_pressure = import.cleaned.curve.pressure;
-  const std::string done = what_was_done(arguments, import, store::sha256(text));
+  Json facts = json_of(import);
+  console.print_json(facts);
+  facts.update({{"record", arguments.record.filename().string()},
+                {"record_points", import.record.time.size()},
+                {"sha256", store::sha256(text)}});
+  const std::string done = told("import_curve.txt", facts);
   console.print_text(done + uncovered_text(import.load));
-  console.print_json(json_of(import));
   if (arguments.output)
     write(arguments, import, done, console);
   else
@@ -137,12 +112,21 @@ ExitCode perform(const ImportCurveArguments& arguments, Console& console) {
 }  // namespace
 
 void add_import_curve(CLI::App& app, CommandLine& line) {
-  auto [command, import] = add_command<ImportCurveArguments>(app, line, "import-curve");
-  add_required(command, "record", import.record);
-  add(command, "-o,--output", import.output);
-  add(command, "--pressure", import.pressure);
-  add_amount(command, "--offset", import.offset, parse_scene_quantity<Dimension::pressure>);
-  add_amount(command, "--trigger", import.trigger, parse_positive<Dimension::pressure>);
+  auto [command, import] = add_command<ImportCurveArguments>(
+      app, line, "import-curve", "Clean the record of a pressure gauge: offset, trigger, units");
+  add(command, "record", import.record, "RECORD.csv", "Record, with a header that names quantities and units")
+      ->required();
+  add(command, "-o,--output", import.output, "FILE.csv",
+      "File for the curve, with a picture beside it; nothing is written unless given");
+  add(command, "--pressure", import.pressure, "COLUMN",
+      "Name of the pressure's column, where there are several");
+  add_quantity(
+      command, "--offset", import.offset, scene::Dimension::pressure,
+      "What the gauge shows before the launch; the median of the points before the rise unless given",
+      "a pressure such as \"0.3 MPa\"", -1e18);
+  add_quantity(command, "--trigger", import.trigger, scene::Dimension::pressure,
+               "Pressure at which the launch begins; 1 % of the peak unless given",
+               "a pressure such as \"5 MPa\"");
 }
 
 }  // namespace launchsafe::app

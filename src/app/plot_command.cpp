@@ -2,173 +2,116 @@
 #include "common_options.hpp"
 #include "launchsafe/report/case_tables.hpp"
 
-#include <boost/algorithm/string.hpp>
-
 namespace launchsafe::app {
 namespace {
 
 struct PlotArguments {
   path file;                         ///< of a case
   std::optional<path> output;        ///< folder; none: CASE_pictures beside the file
-  std::optional<std::string> what;   ///< words of kinds of pictures; none: all with data
+  std::vector<std::string> what;     ///< words of kinds of pictures; none: all with data
   std::optional<std::string> times;  ///< with units, of fields and profiles
   bool tables = false;               ///< CSV files of numbers instead
 };
 
-using report::CasePicture;
+using report::Picture;
 using report::PictureKind;
 
-/// What a command draws, and why it leaves out the rest.
-struct Selection {
+/// The kinds that a user named, which must have data, or all with data where none is named.
+std::vector<const PictureKind*> selected(const report::DrawnCase& drawn, const PlotArguments& arguments) {
   std::vector<const PictureKind*> kinds;
-  std::vector<std::pair<const PictureKind*, std::string>> left_out;
-
-  bool has(std::string_view word) const {
-    return std::ranges::any_of(kinds, [&](const PictureKind* kind) { return kind->word == word; });
-  }
-};
-
-std::vector<std::string> words_of_kinds() {
-  return study::of_each(report::picture_kinds(),
-                        [](const PictureKind& kind) { return std::string(kind.word); });
-}
-
-/// The words of kinds that a user named, between commas or blanks; each must be one.
-std::set<std::string> named_kinds(const std::string& list, Console& console) {
-  const std::vector<std::string> known = words_of_kinds();
-  std::set<std::string> words;
-  boost::algorithm::split(words, list, boost::algorithm::is_any_of(", \t\n"),
-                          boost::algorithm::token_compress_on);
-  if (words.size() > 1) words.erase("");
-  for (const std::string& word : words)
-    if (std::ranges::find(known, word) == known.end())
-      console.refuse(scene::error_at({}, "--what", fmt::format("\"{}\"", word.empty() ? list : word),
-                                     scene::quoted_list(known), scene::nearest_of(word, known)));
-  return words;
-}
-
-/// Of these kinds, or of all where none is named, what the case has data for. A kind that is named must have
-/// some.
-Selection select(const report::DrawnCase& drawn, const std::set<std::string>& named, bool as_tables,
-                 Console& console) {
-  Selection selection;
   for (const PictureKind& kind : report::picture_kinds()) {
-    if (!named.empty() && !named.contains(kind.word)) continue;
-    const bool lacks_tables = as_tables && !kind.tables;
+    const bool is_named = std::ranges::find(arguments.what, kind.word) != arguments.what.end();
+    if (!is_named && !arguments.what.empty()) continue;
+    const bool lacks_tables = arguments.tables && !kind.tables;
     const std::string why = lacks_tables ? "there are pictures of it alone" : kind.lacks(drawn);
     if (why.empty())
-      selection.kinds.push_back(&kind);
-    else if (named.empty())
-      selection.left_out.emplace_back(&kind, why);
-    else
-      console.refuse(scene::error_at({}, "--what",
-                                     fmt::format("\"{}\", which {} has no data for: {}", kind.word,
-                                                 lacks_tables ? "--csv" : "this case", why),
-                                     "what the case has data for; all of that without --what"));
+      kinds.push_back(&kind);
+    else if (is_named)
+      throw scene::error_at({}, "--what", fmt::format("\"{}\", without data: {}", kind.word, why),
+                            "what the case has data for; all of that without --what");
   }
-  return selection;
+  return kinds;
 }
 
-/// The times that a user named, each of which must be one that can be drawn.
-std::vector<double> wanted_times(const report::DrawnCase& drawn, const Selection& selection,
-                                 const std::string& text, Console& console) {
-  const auto refuse = [&](const std::string& found, const std::string& allowed,
-                          const std::string& suggestion = {}) {
-    console.refuse(scene::error_at({}, "--times", found, allowed, suggestion));
-  };
-  const auto times = scene::parse_list(text, scene::Dimension::time);
-  if (!times) refuse(times.error().found, times.error().allowed, times.error().suggestion);
-  const bool of_fields = selection.has("fields");
-  if (!of_fields && !selection.has("profile")) refuse(text, "times where fields or profile are drawn");
+/// The times that a user named: of fields those of snapshots, of profiles any until the end of the run.
+std::vector<double> wanted_times(const report::DrawnCase& drawn, bool of_fields, const std::string& text) {
+  const std::vector<double> times = scene::parse_list(text, scene::Dimension::time);
   const auto snapshots = report::shown_snapshots(drawn);
   std::vector<std::string> known;
   for (const auto& each : snapshots) known.push_back(scene::time_text(each.time()));
   const double end = drawn.result.mechanics.end_time;
-  for (const double time : *times) {
-    const std::string found = scene::time_text(time);
-    if (of_fields &&
-        std::ranges::none_of(snapshots, [&](const auto& each) { return report::is_of_time(each, time); }))
-      refuse(found + ", of which the case has no snapshot",
-             fmt::format("{}; any time with --what profile", fmt::join(known, ", ")));
-    if (!of_fields && !(time >= 0.0 && time <= end * (1.0 + 1e-9)))
-      refuse(found, "times until the end of the run at " + scene::time_text(end));
+  for (const double time : times) {
+    const bool is_known =
+        of_fields
+            ? std::ranges::any_of(snapshots, [&](const auto& each) { return report::is_of_time(each, time); })
+            : time >= 0.0 && time <= end * (1.0 + 1e-9);
+    if (!is_known)
+      throw scene::error_at({}, "--times", scene::time_text(time),
+                            of_fields ? fmt::format("snapshots at {}", fmt::join(known, ", "))
+                                      : "times until the end of the run at " + scene::time_text(end));
   }
-  return *times;
+  return times;
 }
 
-/// What kept a picture from being drawn.
-[[noreturn]] void end_of_drawing(const store::Error& error, Console& console) {
-  if (stop_requested()) console.fail("interrupted while drawing; nothing was written", ExitCode::interrupted);
-  if (error.kind != store::Error::Kind::missing) console.fail(error.message);
-  console.refuse(
-      "plot: found no program gnuplot (Debian: gnuplot-nox), which draws the pictures; allowed: with it "
-      "installed");
-}
-
-/// Pictures, or their numbers, as they will be written, and what is told of them.
-void draw(const report::DrawnCase& drawn, const Selection& selection, bool tables, const path& folder,
-          NamedTexts& texts, Json& told, Console& console) {
-  Progress progress(console.quiet());
-  const auto add = [&](const PictureKind& kind, const std::string& name, std::string text) {
-    texts.push_back({name, std::move(text)});
-    told.push_back({{"what", kind.word}, {"file", (folder / name).string()}});
-  };
-  for (const PictureKind* kind : selection.kinds) {
-    if (tables)
-      for (const report::CaseTable& each : kind->tables(drawn)) add(*kind, each.file, to_csv(each.table));
-    else
-      for (const CasePicture& picture : kind->pictures(drawn)) {
-        progress.show("drawing " + picture.file);
-        auto svg = report::to_svg(picture.plot, {.stop = &stop_requested()});
-        if (!svg) end_of_drawing(svg.error(), console);
-        add(*kind, picture.file, std::move(*svg));
-        if (picture.time) told.back()["time_ms"] = 1e3 * *picture.time;
-        if (picture.gap) told.back()["gap_cm"] = scene::in_unit(*picture.gap, scene::Dimension::length, "cm");
-      }
-  }
+/// Throws what kept a picture from being drawn.
+std::string drawn_picture(const Picture& picture) {
+  auto svg = report::to_svg(picture.drawing, {.stop = &stop_requested});
+  if (svg) return std::move(*svg);
+  if (stop_requested) throw Ended{"interrupted while drawing; nothing was written", ExitCode::interrupted};
+  if (svg.error().kind != store::Error::Kind::missing) throw Ended{svg.error().message, ExitCode::failed};
+  throw Ended{"plot: found no program gnuplot, which draws the pictures (Debian: gnuplot-nox)"};
 }
 
 ExitCode perform(const PlotArguments& arguments, Console& console) {
-  constexpr const char* allowed = "a case file, such as launchsafe run SCENE.toml -o DIR writes";
-  std::vector<std::string> inside;  // a folder, or that of a study
-  for (const path& folder : {arguments.file, arguments.file / "cases"})
-    for (const std::string& name : scene::list_folder(folder))
-      if (name.ends_with(".h5")) inside.push_back((folder / name).string());
-  if (!inside.empty())
-    console.refuse(
-        scene::error_at({arguments.file.string()}, {}, "a folder", allowed, scene::quoted_list(inside)));
-  const auto file = store::read_case_with_scene(arguments.file);
-  if (!file) console.refuse(fmt::format("{}; allowed: {}", file.error().message, allowed));
-  report::DrawnCase drawn{file->scene, file->stored.result};
-  const bool tables = arguments.tables;
-  std::set<std::string> named;
-  if (arguments.what) named = named_kinds(*arguments.what, console);
-  const Selection selection = select(drawn, named, tables, console);
-  if (arguments.times) drawn.times = wanted_times(drawn, selection, *arguments.times, console);
+  const store::StoredCase stored = store::read_case_file(arguments.file);
+  const scene::SceneFile file = scene::parse_scene(stored.manifest.input_text, arguments.file);
+  report::DrawnCase drawn{file.scene, stored.result};
+  const std::vector<const PictureKind*> kinds = selected(drawn, arguments);
+  const bool of_fields = std::ranges::find(kinds, "fields", &PictureKind::word) != kinds.end();
+  if (arguments.times) drawn.times = wanted_times(drawn, of_fields, *arguments.times);
   const path folder = arguments.output.value_or(arguments.file.parent_path() /
                                                 (arguments.file.stem().string() + "_pictures"));
-  const char* list = tables ? "tables" : "pictures";
-  Json object{{"folder", folder.string()}, {list, Json::array()}, {"left_out", Json::array()}};
+  Progress progress(console.quiet());
   NamedTexts texts;
-  draw(drawn, selection, tables, folder, texts, object[list], console);
-  write_where_absent(folder, texts, console);
-  for (const auto& [kind, why] : selection.left_out) {
-    console.remark(fmt::format("no {} of {}: {}", tables ? "table" : "picture", kind->word, why));
-    object["left_out"].push_back({{"what", kind->word}, {"because", why}});
+  Json list = Json::array();
+  const auto add = [&](const PictureKind& kind, const std::string& name, std::string text) {
+    texts.push_back({name, std::move(text)});
+    list.push_back({{"what", kind.word}, {"file", (folder / name).string()}});
+  };
+  for (const PictureKind* kind : kinds) {
+    if (arguments.tables) {
+      for (const report::ReportTable& each : kind->tables(drawn)) add(*kind, each.csv, to_csv(each.table));
+      continue;
+    }
+    for (const Picture& picture : kind->pictures(drawn)) {
+      progress.show("drawing " + picture.file);
+      add(*kind, picture.file, drawn_picture(picture));
+      if (picture.time) list.back()["time_ms"] = 1e3 * *picture.time;
+      if (picture.gap) list.back()["gap_cm"] = scene::in_unit(*picture.gap, scene::Dimension::length, "cm");
+    }
   }
-  return console.done(texts.empty() ? "" : fmt::format("{}\n", fmt::join(places_of(folder, texts), "\n")),
-                      object);
+  const std::vector<std::string> places = write_where_absent(folder, texts);
+  return console.done(fmt::format("{}\n", fmt::join(places, "\n")),
+                      {{"folder", folder.string()}, {arguments.tables ? "tables" : "pictures", list}});
 }
 
 }  // namespace
 
 void add_plot(CLI::App& app, CommandLine& line) {
-  auto [command, plot] = add_command<PlotArguments>(app, line, "plot");
-  add_required(command, "case", plot.file);
-  add(command, "-o,--output", plot.output);
-  add(command, "--what", plot.what)->type_name(fmt::format("{}", fmt::join(words_of_kinds(), "|")));
-  add(command, "--times", plot.times);
-  add(command, "--csv", plot.tables);
+  const auto words =
+      study::of_each(report::picture_kinds(), [](const PictureKind& kind) { return std::string(kind.word); });
+  auto [command, plot] = add_command<PlotArguments>(
+      app, line, "plot", "Draw a case: histories, profiles, and fields over the section");
+  add(command, "case", plot.file, "CASE.h5", "Case file")->required();
+  add(command, "-o,--output", plot.output, "DIR",
+      "Folder for the pictures; CASE_pictures beside the file unless given");
+  add(command, "--what", plot.what, "KINDS",
+      "One or several, with commas between; all that the case has data for unless given")
+      ->delimiter(',')
+      ->check(CLI::IsMember(words));
+  add(command, "--times", plot.times, "LIST",
+      "Times of fields, which must be snapshots, and of profiles, such as \"8, 10 ms\"");
+  command.add_flag("--csv", plot.tables, "Their numbers instead of pictures: pressure, fields and histories");
 }
 
 }  // namespace launchsafe::app

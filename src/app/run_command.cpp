@@ -12,6 +12,7 @@ namespace {
 struct RunArguments {
   path scene;
   std::optional<path> output;  ///< folder of the case file; none: nothing is written
+  std::string command;         ///< the whole command, to be repeated in a shell
 };
 
 /// One gap of a run, with the names of places.
@@ -155,20 +156,14 @@ std::string case_text(const scene::Scene& scene, const run::CaseResult& result, 
                 {"end", scene::end_text(scene)},
                 {"measured", scene::smoothing_text(scene.load)},
                 {"completed", mechanics.status == run::RunStatus::completed},
-                {"limited", mechanics.limiters.acted()},
+                {"limited", run::to_string(mechanics.limiters)},
                 {"simulated", scene::time_text(mechanics.end_time)},
                 {"masses", masses}});
   for (const report::Table& table : tables_of(scene, result))
     facts["tables"].push_back(report::to_text(table, width_of_output()));
-  if (mechanics.monitor.empty()) return told("run.txt", facts);
-  const run::EnergyBalance& energy = mechanics.monitor.back().energy;
-  const auto kilojoules = [](double joules) {
-    return report::in_words(joules, keys::significant(6, keys::kilojoule));
-  };
-  for (auto& [key, value] : facts["energy"].items()) value = kilojoules(value.get<double>());
-  if (energy.contact == 0.0) facts["energy"].erase("contact_J");
-  facts["energy"]["drift"] = report::in_words(energy.drift(), keys::significant(3, keys::percent));
-  facts["energy"]["scale"] = kilojoules(energy.scale());
+  if (!mechanics.monitor.empty())
+    facts["drift"] =
+        report::in_words(mechanics.monitor.back().energy.drift(), keys::significant(3, keys::percent));
   return told("run.txt", facts);
 }
 
@@ -176,7 +171,7 @@ run::CaseResult run_with_progress(const scene::Scene& scene, const Console& cons
   Progress progress(console.quiet());
   const auto start = std::chrono::steady_clock::now();
   run::RunOptions options;
-  options.stop = &stop_requested();
+  options.stop = &stop_requested;
   const double end = scene::end_time(scene.load);
   options.progress = [&, end](double share) {
     constexpr double too_early = 0.005;  // to say what is left
@@ -190,63 +185,56 @@ run::CaseResult run_with_progress(const scene::Scene& scene, const Console& cons
   return run::run_case(scene, options);
 }
 
-[[noreturn]] void report_interruption(const RunArguments& arguments, const run::MechanicsResult& mechanics,
-                                      const scene::Scene& scene, Console& console) {
-  const std::string output = arguments.output ? fmt::format(" -o {}", arguments.output->string()) : "";
-  const double end = scene::end_time(scene.load);
-  // What follows the launch was interrupted where the launch itself is over.
-  const std::string where =
-      mechanics.end_time < end
-          ? fmt::format("at {} of {}", scene::time_text(mechanics.end_time), scene::time_text(end))
-          : mechanics.reason;
-  console.fail(
-      fmt::format("interrupted {}; nothing of this case was kept; to start it again: launchsafe run {}{}",
-                  where, arguments.scene.string(), output),
-      ExitCode::interrupted);
-}
-
 ExitCode perform(const RunArguments& arguments, Console& console) {
-  const scene::SceneFile file = console.value_of(scene::read_scene(arguments.scene));
+  const scene::SceneFile file = scene::read_scene(arguments.scene);
   const scene::Scene& scene = file.scene;
-  store::Manifest manifest = store::make_manifest(scene::to_toml(scene), 1);
+  store::Manifest manifest = store::make_manifest(scene::to_toml(scene));
   path target;
   if (arguments.output) {
     std::string name = arguments.scene.stem();
-    std::ranges::replace(name, ':', '_');  // XDMF ends the name of a file at its first colon
+    for (char& letter : name)  // that XDMF takes for another
+      if (std::string_view(":<>&\"").find(letter) != std::string_view::npos) letter = '_';
     target = *arguments.output / (name + ".h5");
-    // Found out before anything is computed.
-    console.refuse_any(store::obstacle_to_case_file(target, manifest, scene.output.asks_for_snapshots()));
-    console.refuse_any(prepare_output_folder(*arguments.output));
+    for (const path& each : {target, store::sidecar_of(target)})  // found out before anything is computed
+      if (std::filesystem::exists(each)) throw store::refusal(each, "is there");
+    prepare_output_folder(*arguments.output);
   }
-  const run::CaseResult result = run_with_progress(scene, console);
-  manifest.wall_time = result.mechanics.wall_time;
-  if (result.mechanics.status == run::RunStatus::interrupted)
-    report_interruption(arguments, result.mechanics, scene, console);
-  if (!target.empty()) {
-    if (const auto error = store::write_case_file(target, scene, result, manifest)) console.end_with(*error);
-    console.remark(fmt::format("wrote {}", target.string()));
-  }
+  run::CaseResult result = run_with_progress(scene, console);
+  const run::MechanicsResult& mechanics = result.mechanics;
+  if (mechanics.status == run::RunStatus::interrupted)
+    throw Ended{fmt::format("interrupted at {} of {}; nothing of this case was kept; to start it again: {}",
+                            scene::time_text(mechanics.end_time),
+                            scene::time_text(scene::end_time(scene.load)), arguments.command),
+                ExitCode::interrupted};
   Json object = case_json(scene, result);
   object["kinetics"] = report::kinetics_json(file);
-  console.print_text(case_text(scene, result, object));
   object["input_sha256"] = manifest.input_sha256;
-  object["file"] = target.empty() ? Json(nullptr) : Json(target.string());
-  console.print_json(object);
+  object["file"] = target.string();
+  const std::string text = case_text(scene, result, object);
   const bool finite = std::ranges::all_of(
       result.gaps, [](const run::GapResult& gap) { return std::isfinite(gap.at_stations.temperature); });
-  if (!finite) console.fail("a skin temperature is not a number", ExitCode::cases_failed);
-  if (result.mechanics.status == run::RunStatus::completed) return ExitCode::done;
-  console.fail(fmt::format("the run ended early ({}): {}", run::to_string(result.mechanics.status),
-                           result.mechanics.reason),
-               ExitCode::cases_failed);
+  const std::string early =
+      mechanics.status == run::RunStatus::completed
+          ? ""
+          : fmt::format("the run ended early ({}): {}", run::to_string(mechanics.status), mechanics.reason);
+  if (!target.empty()) {
+    manifest.wall_time = mechanics.wall_time;
+    store::write_case_file(target, {manifest, std::move(result)});
+    console.remark(fmt::format("wrote {}", target.string()));
+  }
+  console.done(text, object);
+  if (!finite) throw Ended{"a skin temperature is not a number", ExitCode::cases_failed};
+  if (!early.empty()) throw Ended{early, ExitCode::cases_failed};
+  return ExitCode::done;
 }
 
 }  // namespace
 
 void add_run(CLI::App& app, CommandLine& line) {
-  auto [command, run] = add_command<RunArguments>(app, line, "run");
-  add_required(command, "scene", run.scene);
-  add(command, "-o,--output", run.output);
+  auto [command, run] = add_command<RunArguments>(
+      app, line, "run", "Run one case: a scene in, temperatures of the charge bottom out");
+  add(command, "scene", run.scene, "SCENE.toml", "Scene file")->required();
+  add(command, "-o,--output", run.output, "DIR", "Folder to write the HDF5 case file to");
 }
 
 }  // namespace launchsafe::app

@@ -18,9 +18,11 @@ void read_axis(const Leaf& leaf, std::size_t block, StudyFile& study) {
   if (leaf.name == "gap.thickness")
     refuse_at(study, key, leaf.name + " as a setting",
               "numerics keys, friction.closure, ...; the gaps are the study's");
-  const KeyDescription description = taken(scene::describe_key(study.scene, leaf.name, place), "settings");
+  const KeyDescription description =
+      scene::within("settings", [&] { return scene::describe_key(study.scene, leaf.name, place); });
   SettingsAxis& axis = own(study).settings[block].emplace_back();
-  for (const Value& value : taken(scene::read_values(*leaf.node, description, study.file), "settings"))
+  for (const Value& value :
+       scene::within("settings", [&] { return scene::read_values(*leaf.node, description, study.file); }))
     axis.push_back({leaf.name, value, place, key});
 }
 
@@ -106,8 +108,8 @@ void check_setting_count(StudyFile& study) {
 void read_settings(const toml::table& root, StudyFile& study) {
   check_reference_meshes(study);
   for (const toml::table* table :
-       taken(scene::tables_of(root, "settings", study.file,
-                              "tables, each written [[settings]], of scene keys with several values"))) {
+       scene::tables_of(root, "settings", study.file,
+                        "tables, each written [[settings]], of scene keys with several values")) {
     const std::size_t block = own(study).settings.size();
     own(study).settings.emplace_back();
     for (const Leaf& leaf : study::leaves_as_written(*table)) read_axis(leaf, block, study);

@@ -6,31 +6,49 @@ namespace launchsafe::kinds {
 
 namespace {
 
-Row facts_of(const AccuracyRow& row) {
-  return {{"label", row.label}, {"bound_K", row.temperature_bound}, {"time_s", row.processor_time}};
+std::string kelvins(double value) { return in_words(value, significant(2, kelvin)); }
+std::string at_most(double value, keys::Unit unit) {
+  return in_words(value, report::up(significant(2, unit)));
+}
+
+/// Numerics that the reference meshes share and no setting varies: no error is known then.
+std::string unvaried_text(const AccuracyResult& result) {
+  std::vector<std::string> shared;
+  for (const std::string& name : result.reference->unvaried) {
+    const auto& key = *scene::find_key(scene::scene_keys(), name);
+    shared.push_back(
+        fmt::format("{} = {}", name, scene::format_value(key, key.get(result.study.scene.scene))));
+  }
+  return fmt::format("{}", fmt::join(shared, ", "));
+}
+
+/// "its limit", where the meshes justify one.
+const char* reference_text(bool has_limit) {
+  return has_limit ? "the limit of the meshes" : "the finest mesh (no extrapolation is justified)";
 }
 
 /// How wrong T max and the critical gap of the scene as it is may be.
-Row facts_of(const AccuracyResult& result, const AccuracyRow& own) {
-  Row facts = facts_of(own);
-  // Where no error is known: numerics that the reference meshes share and no setting varies.
-  for (const std::string& name : result.reference->unvaried) {
-    const auto& key = *scene::find_key(scene::scene_keys(), name);
-    facts["unvaried"].push_back(
-        fmt::format("{} = {}", name, scene::format_value(key, key.get(result.study.scene.scene))));
-  }
-  const ReferenceValue& gap = result.reference->critical_gap;
-  facts.update(
-      {{"limit", std::ranges::all_of(result.reference->temperature,
-                                     [](const ReferenceValue& each) { return each.limit.justified; })},
-       {"distance_K", own.largest_temperature_error},
-       {"gap_cm", shown_gap(own.critical_gap)},
-       {"gap_bound_cm", report::number(shown_gap(own.critical_gap_bound))},
-       {"gap_limit", gap.limit.justified},
-       {"gap_reference_cm", shown_gap(gap.limit.value)},
-       {"gap_larger", own.critical_gap_error > 0},
-       {"gap_distance_cm", shown_gap(std::abs(own.critical_gap_error))}});
-  return facts;
+std::string error_text(const AccuracyResult& result, const AccuracyRow& own) {
+  if (const std::string shared = unvaried_text(result); !shared.empty())
+    return fmt::format(
+        "The error of T max is not known: all reference meshes have {}, and no setting shows what the exact "
+        "value would change. Run the meshes with the exact value, or add [[settings]] that differ from "
+        "another setting in this key alone, at its exact value.",
+        shared);
+  const bool has_limit = std::ranges::all_of(result.reference->temperature,
+                                             [](const ReferenceValue& each) { return each.limit.justified; });
+  std::string text = fmt::format(
+      "With the setting of the scene, T max is off by at most about {} over the compared gaps; it is {} from "
+      "{}.",
+      at_most(own.temperature_bound, kelvin), kelvins(own.largest_temperature_error),
+      reference_text(has_limit));
+  const math::Extrapolation& gap = result.reference->critical_gap.limit;
+  if (std::isfinite(own.critical_gap_bound))
+    text += fmt::format(" Its critical gap, {}, is off by at most about {}; that of {} is {}.",
+                        in_words(own.critical_gap, significant(4, centimetre)),
+                        at_most(own.critical_gap_bound, centimetre), reference_text(gap.justified),
+                        in_words(gap.value, significant(4, centimetre)));
+  return text;
 }
 
 /// The cheapest setting whose T max is within `tolerance` (K); nullptr without one.
@@ -43,20 +61,19 @@ const AccuracyRow* cheapest_within(const std::vector<AccuracyRow>& rows, double 
   return best;
 }
 
-Row cheapest_settings(const AccuracyResult& result) {
-  Row all = Row::array();
+std::string cheapest_text(const AccuracyResult& result) {
+  std::string text;
   const AccuracyRow* last = nullptr;
   for (const double tolerance : {1.0, 2.0, 5.0, 10.0, 20.0, 50.0}) {
     const AccuracyRow* row = cheapest_within(result.rows, tolerance);
     if (row == nullptr || row == last) continue;
     last = row;
-    all.push_back(facts_of(*row));
-    all.back()["tolerance_K"] = tolerance;
+    text += fmt::format("\n- T max within {:g} K: {} ({}, {})", tolerance, row->label,
+                        at_most(row->temperature_bound, kelvin),
+                        in_words(row->processor_time, significant(3, second)));
   }
-  return all;
+  return text.empty() ? "" : "\nCheapest settings:" + text;
 }
-
-std::string kelvins(double value) { return in_words(value, significant(2, kelvin)); }
 
 /// "3 K from its limit": the scene's own setting. What is nearer than the limit is known to cannot be told
 /// from that.
@@ -107,15 +124,10 @@ Plot error_plot(const AccuracyResult& result) {
 }
 
 std::string answer(const AccuracyResult& result) {
+  if (!result.reference) return fmt::format("There is no reference: {}.", result.no_reference);
   const AccuracyRow* own = result.baseline();
-  Row facts{{"no_reference", result.reference ? "" : result.no_reference},
-            {"unsound", result.reference && own == nullptr},
-            {"cheapest", Row::array()}};
-  if (result.reference) facts["cheapest"] = cheapest_settings(result);
-  if (result.reference && own != nullptr) facts["own"] = facts_of(result, *own);
-  const std::string settings = said_below("accuracy.cheapest", facts);
-  return fmt::format("{}{}", fmt::join(said("accuracy.answer", facts), "\n"),
-                     settings.empty() ? "" : "\nCheapest settings:\n" + settings);
+  return (own == nullptr ? "The scene's own setting did not run soundly." : error_text(result, *own)) +
+         cheapest_text(result) + "\n";
 }
 
 Report report_of(const AccuracyResult& result) {
@@ -123,9 +135,11 @@ Report report_of(const AccuracyResult& result) {
   if (result.reference) report.draw({"error_against_time.svg", error_plot(result), "error against run time"});
   report.add({setting_table(result), "accuracy.csv", "settings"});
   report.add({reference_table(result), "reference.csv", "reference", Shown::page});
-  report.say(said_below("accuracy.files"));
+  report.say(
+      "In files: cost and errors of every setting (`accuracy.csv`), and the reference meshes with the "
+      "observed order of T max and the critical gap (`reference.csv`).\n");
   report.say("## Setup\n\n" + report::setup_text(result.study));
-  report.say(report::timing_sentence(result.timing));
+  report.say("This computation " + report::timing_text(result.timing) + ".\n");
   report.json = study_json(result.study, report, {{"timing", report::timing_json(result.timing)}});
   return report;
 }

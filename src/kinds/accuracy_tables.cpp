@@ -62,9 +62,9 @@ std::string remark_of_setting(const AccuracyRow& row) {
   return text;
 }
 
-const Column temperature_bound{"temperature_bound", "T bound", fixed(2, kelvin),
+const Column temperature_bound{"temperature_bound", "T bound", report::up(fixed(2, kelvin)),
                                "By how much T max may be off, over all gaps."};
-const Column critical_gap_bound{"critical_gap_bound", "its bound", significant(2, centimetre),
+const Column critical_gap_bound{"critical_gap_bound", "its bound", report::up(significant(2, centimetre)),
                                 "By how much that may be off."};
 const Column processor_time{"processor_time", "processor time", fixed(1, second), "Of the run."};
 
@@ -115,9 +115,12 @@ Table reference_table(const AccuracyResult& result) {
 }
 
 Table setting_table(const AccuracyResult& result) {
-  return table_of("Error against run time", setting_quantities(result.study.study.gaps),
-                  result.reference ? result.rows : std::vector<AccuracyRow>(),
-                  said("accuracy.note.settings"));
+  return table_of(
+      "Error against run time", setting_quantities(result.study.study.gaps),
+      result.reference ? result.rows : std::vector<AccuracyRow>(),
+      {"Error: the setting's value minus the extrapolated one (minus that of the finest mesh where no "
+       "extrapolation is justified). Bound: distance from the finest mesh plus its uncertainty, the "
+       "largest over the gaps."});
 }
 
 std::vector<ReportTable> accuracy_results() {

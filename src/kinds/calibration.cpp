@@ -104,7 +104,7 @@ struct Trials {
       const FittedKey& key = result.fitted[i];
       changes.push_back({key.description.name, key.start * std::exp(logarithms[i]), {}});
     }
-    return scene::with_keys(result.study.scene, changes);
+    return scene::caught([&] { return scene::with_keys(result.study.scene, changes); });
   }
 
   study::CaseRun run_of(const SceneFile& trial) const {
@@ -313,7 +313,7 @@ Constants constants_of(const CalibrationResult& result, const SceneFile& trial) 
                       .model_version = scene::model_version};
   bracket_ignition(study, trial.scene, trace, constants);
   const double middle = 0.5 * (constants.ignition_lowest + constants.ignition_highest);
-  const SceneFile file = scene::with_keys(trial, {{"kinetics.ignition_temperature", middle, {}}}).or_throw();
+  const SceneFile file = scene::with_keys(trial, {{"kinetics.ignition_temperature", middle, {}}});
   constants.values = values_of(file, result.fitted);
   constants.fitted_keys = of_each(result.fitted, &FittedKey::name);
   constants.covariance = covariance_of(result.fit);

@@ -96,7 +96,7 @@ void check_launch_of_rows(const StudyFile& study) {
     const Place place = place_of_key(study, fmt::format("reference.{}.scene", i));
     const auto folder = std::filesystem::path(place.file).parent_path();
     const SceneFile of_row =
-        taken(scene::read_scene(scene::named_file(folder, name, place, "reference.scene", "a scene file")));
+        scene::read_scene(scene::named_file(folder, name, place, "reference.scene", "a scene file"));
     for (const std::string& each : study::differences(study.scene.scene, of_row.scene))
       if (is_of_launch(each, fitted))
         throw error_at(place, "reference.scene",
@@ -127,7 +127,11 @@ FittedKey key_to_fit(const StudyFile& study, const std::string& name) {
   const Scene& scene = study.scene.scene;
   const std::string in_scene = scene::key_in_scene(scene, name);
   if (in_scene.empty()) refuse("a face that no body of the scene bears on", "a face that one does");
-  FittedKey key{name, taken(scene::describe_key(study.scene, in_scene, place_of_key(study, fit)), fit), 0.0};
+  FittedKey key{
+      name,
+      scene::within(fit,
+                    [&] { return scene::describe_key(study.scene, in_scene, place_of_key(study, fit)); }),
+      0.0};
   if (key.description.kind != scene::KeyKind::number)
     refuse("which takes no number", "keys with one positive number");
   const auto* of_scene = scene::find_key(scene::scene_keys(), in_scene);

@@ -75,7 +75,7 @@ Row places_json(const CalibrationResult& result) {
   return list;
 }
 
-/// Facts for the texts of the page.
+/// What was found, for programs.
 Row facts_of(const CalibrationResult& result) {
   Row facts{{"failure", result.failure}};
   if (!result.constants) return facts;
@@ -99,6 +99,39 @@ Row facts_of(const CalibrationResult& result) {
   return facts;
 }
 
+/// Rows that the fit did not have, as lines of a list.
+std::string check_text(const Row& facts) {
+  std::string text;
+  for (const Row& row : facts["temperatures"])
+    text += fmt::format("- {} differs most from the published one at {:.6g} cm, by {:.1f} K.\n",
+                        report::text_of(row, "quantity"), row["gap_cm"].get<double>(),
+                        row["computed_minus_published"].get<double>());
+  for (const Row& row : facts["places"])
+    text += fmt::format("- Without a gap the charge is hottest {} from the axis at {}; published: {}.\n",
+                        report::text_of(row, "computed"), report::text_of(row, "time"),
+                        report::text_of(row, "published"));
+  for (const auto& [key, unit, decimals] : {std::tuple{"spreads", "K", 1}, {"ignition", "ms", 2}})
+    for (const Row& row : facts[key])
+      text += fmt::format("- The {} at {:.6g} cm is {:.{}f} {}; published: {:.{}f} {}.\n",
+                          report::text_of(row, "quantity"), row["gap_cm"].get<double>(),
+                          row["computed"].get<double>(), decimals, unit, row["published"].get<double>(),
+                          decimals, unit);
+  for (const Row& row : facts["safe"])
+    text += fmt::format("- {:.6g} cm, the largest gap that is published not to ignite, {}.\n",
+                        row["gap_cm"].get<double>(), row["ignites"] == true ? "ignites" : "does not ignite");
+  return text;
+}
+
+std::string fit_text(const Row& facts) {
+  return fmt::format(
+      "The keys are fitted to {} published numbers by least squares; what is left, over the weights, has a "
+      "sum of squares of {:.2f}. The condition of the fit, in logarithms, is {:.0f}. The ignition "
+      "temperature is the middle between {:.2f} K, the highest at the largest gap that does not ignite, and "
+      "{:.2f} K, that of the smallest gap that does, when it does.\n",
+      facts["numbers"].get<std::size_t>(), facts["sum_of_squares"].get<double>(),
+      facts["condition"].get<double>(), facts["lowest_K"].get<double>(), facts["highest_K"].get<double>());
+}
+
 std::vector<ReportTable> tables_of(const CalibrationResult& result) {
   std::vector<report::NamedRun> runs;
   if (!result.label.empty())
@@ -113,20 +146,27 @@ std::vector<ReportTable> tables_of(const CalibrationResult& result) {
 }  // namespace
 
 std::string answer(const CalibrationResult& result) {
-  return said("calibration.answer", facts_of(result)).front();
+  if (!result.failure.empty()) return fmt::format("No constants: {}.", result.failure);
+  if (!result.constants) return "No constants: nothing was computed.";
+  std::string text;
+  for (const ConstantRow& row : constant_rows(result)) text += row.key + " " + row.fitted + ", ";
+  return fmt::format(
+      "{}ignition temperature {}: {}.", text,
+      in_words(result.constants->scene.charge().kinetics.ignition_temperature, significant(6, kelvin)),
+      result.constants->name);
 }
 
 Report report_of(const CalibrationResult& result) {
   const Row facts = facts_of(result);
   Report report{result.study.study.title, answer(result), report::remaking_command(result.study)};
   const std::vector<ReportTable> tables = tables_of(result);
-  report.say(said_below("calibration.check", facts));
+  if (result.constants) report.say(check_text(facts));
   report.add(tables[0]);
-  report.say(said_below("calibration.fit", facts));
+  if (result.constants) report.say(fit_text(facts));
   report.add(tables[1]);
   report.say("## Setup\n\n" + report::setup_text(result.study));
   report.add(tables[2]);
-  report.say(report::timing_sentence(result.timing));
+  report.say("This computation " + report::timing_text(result.timing) + ".\n");
   if (result.constants) report.files.push_back({result.constants->name, scene::to_toml(*result.constants)});
   report.json =
       study_json(result.study, report, {{"found", facts}, {"timing", report::timing_json(result.timing)}});

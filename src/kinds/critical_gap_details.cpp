@@ -4,7 +4,7 @@
 
 namespace launchsafe::kinds {
 
-using study::Confirmation, study::Line;
+using study::CauseShare, study::CauseTraits, study::Confirmation, study::Line;
 
 namespace {
 
@@ -26,6 +26,20 @@ const auto coupled_quantities = with_whole(
                              {quantity::temperature_max,
                               [](const Confirmation& run) { return report::known(run.maximum_temperature); }},
                              {quantity::reason, &Confirmation::failure}});
+
+const auto cause_quantities = with_whole(
+    name_quantities,
+    Quantities<CauseShare>{
+        {"cause", "cause", text(), "What makes the critical gap uncertain.", &CauseShare::cause,
+         study::traits_of, &CauseTraits::title},
+        {"class", "class", text(), "random: differs from launch to launch; bound: unknown, but fixed.",
+         [](const CauseShare& share) -> std::string {
+           return study::traits_of(share.cause).random ? "random" : "bound";
+         }},
+        {quantity::shorter, &CauseShare::shorter},
+        {quantity::longer, &CauseShare::longer},
+        {report::for_programs(Column{"remedy", "remedy", text(), "What would make the share smaller."}),
+         &CauseShare::cause, study::traits_of, &CauseTraits::remedy}});
 
 const auto line_quantities = with_whole(
     name_quantities,
@@ -54,18 +68,18 @@ Table run_table(const CriticalGapResult& result) {
 
 /// The causes of all cases; the notes name the cause that lowers the bound of each case most.
 Table cause_table(const CriticalGapResult& result) {
-  Table table = report::cause_table(of_each(result.details, [](const CaseInDetail& each) {
-    return report::NamedCase{each.input.label, &each};
-  }));
-  Row facts{{"several", result.details.size() > 1}, {"cases", Row::array()}};
+  Table table = table_of(
+      "What makes the critical gap uncertain", cause_quantities,
+      parts_of<CauseShare>(result.details, &CaseInDetail::causes),
+      {"Each cause is computed on this launch alone. The bounds are the critical gap less, or plus, the "
+       "root of the sum of squares of the random causes, and the sum of the others."});
   for (const CaseInDetail& each : result.details) {
     const auto largest = std::ranges::max_element(each.causes, {}, &study::CauseShare::shorter);
     if (largest != each.causes.end() && largest->shorter > 0.0)
-      facts["cases"].push_back({{"case", each.input.label},
-                                {"cause", traits_of(largest->cause).title},
-                                {"shorter_cm", shown_gap(largest->shorter)}});
+      table.notes.push_back(fmt::format("Largest cause in {}: {} ({}).", each.input.label,
+                                        traits_of(largest->cause).title,
+                                        in_words(largest->shorter, quantity::shorter.form)));
   }
-  std::ranges::move(said("critical_gap.note.cause", facts), std::back_inserter(table.notes));
   return table;
 }
 
@@ -83,11 +97,12 @@ Table coupled_run_table(const CriticalGapResult& result) {
 }
 
 std::string limiter_remark(const CriticalGapResult& result) {
-  Row runs = Row::array();
+  std::string text;
   for (const CaseInDetail& each : result.details)
-    runs.push_back(
-        {{"case", each.input.label}, {"limiters", report::limiters_text(each.result.mechanics.limiters)}});
-  return said_below("critical_gap.limiters", {{"runs", runs}});
+    if (const run::LimiterCounts& limiters = each.result.mechanics.limiters; limiters.acted())
+      text += fmt::format("Limiters acted in {} ({} particle steps); its verdicts rest on them too.\n",
+                          each.input.label, report::limiters_text(limiters));
+  return text;
 }
 
 void add_details(const CriticalGapResult& result, Report& report) {
@@ -97,7 +112,7 @@ void add_details(const CriticalGapResult& result, Report& report) {
 
 void add_runs(const CriticalGapResult& result, Report& report) {
   report.add({run_table(result), "", "runs"});
-  report.say(report::timing_sentence(result.timing));
+  report.say("This computation " + report::timing_text(result.timing) + ".\n");
 }
 
 std::vector<ReportTable> detail_results() {

@@ -9,10 +9,30 @@ struct PlacedGap {
   report::JudgedGap judged;
 };
 
+/// Peak pressure, crack radius and flaw size, which every launch has, and what else varies.
+Quantities<std::vector<double>> launch_quantities(const StudyFile& study) {
+  Quantities<std::vector<double>> axes = report::axis_quantities(study.study), launch;
+  const StudyCase first = study.cases.empty() ? StudyCase{} : study.cases.front();
+  const std::pair<Column, double> fixed_values[] = {
+      {quantity::peak_pressure, first.peak_pressure},
+      {quantity::crack_radius, first.strength().initial_crack_radius},
+      {quantity::flaw_size, first.strength().flaw_size}};
+  for (const auto& [column, value] : fixed_values) {
+    if (const auto* axis = keys::find_named(axes, column.name))
+      launch.push_back(*axis);
+    else
+      launch.emplace_back(for_programs(column),
+                          [value = value](const std::vector<double>&) { return value; });
+  }
+  for (const auto& axis : axes)
+    if (keys::find_named(launch, axis.name) == nullptr) launch.push_back(axis);
+  return launch;
+}
+
 Quantities<PlacedGap> placed_gap_quantities(const StudyFile& study) {
   return joined<PlacedGap>(
       {{{quantity::gap, &PlacedGap::judged, &report::JudgedGap::gap, &GapRow::gap}},
-       of_part<PlacedGap>(report::launch_quantities(study), &PlacedGap::of, &PlacedCase::coordinates),
+       of_part<PlacedGap>(launch_quantities(study), &PlacedGap::of, &PlacedCase::coordinates),
        of_part<PlacedGap>(report::verdict_quantities(study.study), &PlacedGap::judged)});
 }
 
@@ -84,7 +104,12 @@ Column difference_of(Column computed) {
 auto use_of(const StudyFile& study, double Reference::*number) {
   return [constants = study.scene.constants, number](const Reference& published) -> std::string {
     if (!std::isfinite(published.*number)) return {};
-    return to_string(report::use_of(constants, published.gap, published.*number));
+    const auto is_it = [&](const scene::FittedNumber& row) {
+      return row.is_fitted && std::abs(row.gap - published.gap) <= 1e-9 &&
+             study::same_number(row.published, published.*number);
+    };
+    const bool is_fitted = constants != nullptr && std::ranges::any_of(constants->rows, is_it);
+    return to_string(is_fitted ? study::Use::fitted : study::Use::check);
   };
 }
 
@@ -128,22 +153,24 @@ Table critical_gap_table(const CriticalGapResult& result) {
       table_of(in_detail ? "Critical gap" : "Critical gaps",
                placed_case_quantities(result.study.study, in_detail), placed(result.study, result.rows));
   if (in_detail) return table;
-  table.notes = said("critical_gap.note.cases");
+  table.notes = {
+      "After ignition T max is that of the burning skin. `verdicts.csv` has every gap with its reason."};
   std::ranges::move(report::verdict_notes(result.study, result.rows), std::back_inserter(table.notes));
   return table;
 }
 
 Table comparison_table(const CriticalGapResult& result) {
   std::vector<ComparedRow> rows;
-  bool ignited = false;
   for (const CaseRow& row : result.rows)
     for (const GapRow& gap : row.gaps) {
       if (!gap.reference) continue;
-      ignited = ignited || gap.reference->ignited() || gap.ignition;
       rows.push_back(&gap);
     }
+  std::vector<std::string> notes{
+      "Fitted: the constants were fitted to it, and its difference is what the fit leaves. Check: they were "
+      "not. After ignition T max is that of the burning skin; it is not compared."};
   return table_of("Against the published results", comparison_quantities(result.study), rows,
-                  said("critical_gap.note.comparison", {{"ignited", ignited}}));
+                  std::move(notes));
 }
 
 std::vector<ReportTable> critical_gap_results() {

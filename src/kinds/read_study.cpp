@@ -54,10 +54,12 @@ const Kind& read_kind(const toml::table& root, const std::string& file) {
       for (const StudyTable& table : kind.tables)
         if (std::ranges::find(tables, table.name) == tables.end()) tables.push_back(table.name);
     }
-    throw scene::read_described(root, scene::descriptions_of(keys), tables, file).error();
+    scene::read_described(root, scene::descriptions_of(keys), tables,
+                          file);  // which throws: "kind" is missing
+    throw error_at({file}, "kind", "nothing; the key is missing", "a kind of study");
   }
   return kind_named(
-      std::get<std::string>(taken(scene::read_value(*node, *scene::find_key(common_keys(), "kind"), file))));
+      std::get<std::string>(scene::read_value(*node, *scene::find_key(common_keys(), "kind"), file)));
 }
 
 /// The keys of the file, and the tables that are read apart from the keys.
@@ -92,7 +94,7 @@ void check_kind(const toml::table& root, const Kind& kind, const std::string& fi
 void read_keys(const toml::table& root, const Kind& kind, const StudyKeys& keys, StudyFile& study) {
   std::vector<std::string> tables = common_tables();
   for (const StudyTable& table : kind.tables) tables.push_back(table.name);
-  study.places = taken(scene::read_table(root, keys, tables, study.file, study.study));
+  study.places = scene::read_table(root, keys, tables, study.file, study.study);
   check_reasons(study);
   for (const std::string& name : tables)
     if (const toml::node* node = root.get(name)) study.places[name] = scene::place_of(*node, study.file);
@@ -130,17 +132,18 @@ Expected<std::vector<Change>> changes_in(const OverrideTable& table, const std::
   if (!node->is_table()) throw error_at(scene::place_of(*node, file), name, found_text(*node), written);
   for (const Leaf& leaf : study::leaves_as_written(*node->as_table())) {
     const Place place = scene::place_of(*leaf.node, file);
-    const auto key = taken(scene::describe_key(scene, leaf.name, place), name);
-    const auto value = scene::read_value(*leaf.node, key, file);
-    if (!value) return scene::within(name, value.error());
+    const auto key = scene::within(name, [&] { return scene::describe_key(scene, leaf.name, place); });
+    const auto value = scene::caught(
+        [&] { return scene::within(name, [&] { return scene::read_value(*leaf.node, key, file); }); });
+    if (!value) return value.error();
     changes.push_back({leaf.name, *value, place, name + "." + leaf.name});
   }
   return changes;
 }
 
 void settle_scene(const StudySource& source, const std::vector<OverrideTable>& overrides, StudyFile& study) {
-  study.scene = taken(scene::read_scene(scene::named_file(
-      source.folder, study.study.scene, place_of_key(study, "scene"), "scene", "a scene file")));
+  study.scene = scene::read_scene(scene::named_file(source.folder, study.study.scene,
+                                                    place_of_key(study, "scene"), "scene", "a scene file"));
   use_constants(study, source.folder);
   for (const OverrideTable& each : overrides) apply_overrides(each, study);
   if (study.study.kind.gives_verdicts) scene::check_expected_velocity(study.scene);
@@ -150,7 +153,7 @@ void settle_scene(const StudySource& source, const std::vector<OverrideTable>& o
 
 Expected<StudyFile> parse_study(std::string_view text, const std::filesystem::path& path,
                                 const StudyRequest& request) try {
-  const toml::table root = taken(scene::parse_toml(text, path.string()));
+  const toml::table root = scene::parse_toml(text, path.string());
   const StudySource source{root, path.parent_path()};
   StudyFile study;
   study.file = path.string();
@@ -170,7 +173,7 @@ Expected<StudyFile> parse_study(std::string_view text, const std::filesystem::pa
 }
 
 Expected<StudyFile> read_study(const std::filesystem::path& file, const StudyRequest& request) {
-  const auto text = scene::read_text_file(file);
+  const auto text = scene::caught([&] { return scene::read_text_file(file); });
   return text ? parse_study(*text, file, request) : text.error();
 }
 

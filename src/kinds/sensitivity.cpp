@@ -77,7 +77,10 @@ void add_evaluations(StudyFile& study) {
 
 void make_sensitivity_cases(const StudySource&, StudyFile& study) {
   const std::vector<double>& gaps = study.study.gaps;
-  if (gaps.size() != 1) {
+  const bool varied = study::varies_gap(study.study);
+  if (varied && !gaps.empty())
+    refuse_at(study, "gaps", "gaps beside gap.thickness in vary", "either of both");
+  if (!varied && gaps.size() != 1) {
     const char* whose = study.places.contains("gaps") ? "" : "no gap, and the scene's ";
     refuse_at(study, "gaps", fmt::format("{}{} gaps", whose, gaps.size()), "one gap",
               fmt::format("gaps = \"{}\"", format_quantity(gaps.back(), Dimension::length)));

@@ -63,9 +63,17 @@ Row method_facts(const SensitivityResult& result) {
 }
 
 std::string method_text(const SensitivityResult& result) {
-  Row facts = method_facts(result);
-  facts["calibrated"] = settings_of<SensitivitySettings>(result.study).calibrated.has_value();
-  return said("sensitivity.method", facts).front();
+  const auto& own = settings_of<SensitivitySettings>(result.study);
+  std::string text = fmt::format(
+      "Sobol indices of a polynomial chaos (Blatman & Sudret 2011) that was fitted to {} launches, on a "
+      "scrambled Sobol sequence; 95% intervals from a bootstrap of {} resamples, seed {}, widened by the "
+      "share of the variance that the fit misses of launches left out of it.",
+      own.samples, math::SobolOptions().resamples, own.seed);
+  if (own.calibrated)
+    text +=
+        " The constants of the calibration vary together, by the covariance of their logarithms, and are one "
+        "input.";
+  return text;
 }
 
 /// Below this share of the variance with all interactions an input does not matter.
@@ -96,29 +104,35 @@ Groups ranked(const std::vector<math::InputIndices>& inputs) {
   return groups;
 }
 
+/// Names, the last behind "and".
+std::string and_text(const std::vector<std::string>& names) {
+  if (names.size() < 2) return fmt::format("{}", fmt::join(names, ""));
+  return fmt::format("{} and {}", fmt::join(names.begin(), names.end() - 1, ", "), names.back());
+}
+
 /// Inputs by their influence, what the intervals do not tell apart, and whose whole interval is small.
 std::string output_text(const SensitivityResult& result, const OutputSensitivity& output) {
-  const std::vector<ShownInput> inputs = shown_inputs(result.study.study);
-  Row facts{{"reason", output.reason},
-            {"rows", settings_of<SensitivitySettings>(result.study).samples},
-            {"negligible_percent", shown_value(negligible_share, significant(6, percent))}};
-  const Groups groups = output.reason.empty() ? ranked(output.sobol.inputs) : Groups{};
-  for (const auto& group : groups) {
-    Row names, named;
-    for (const std::size_t input : group) {
-      names.push_back(inputs[input].name);
-      named.push_back(
-          fmt::format("{} ({})", inputs[input].name, estimate_text(output.sobol.inputs[input].total)));
-    }
-    facts["groups"].push_back({{"named", named}, {"first", facts["groups"].empty()}});
-    if (group.size() > 1) facts["open"].push_back({{"names", names}, {"first", facts["open"].empty()}});
-  }
-  facts["alone"] = groups.size() == 1 && inputs.size() > 1;
-  for (std::size_t i = 0; i < output.sobol.inputs.size(); ++i)
-    if (output.sobol.inputs[i].total.upper < negligible_share) facts["negligible"].push_back(inputs[i].name);
   std::string what = shown_output(output.output).phrase;
   if (what.starts_with('t')) what.front() = 'T';
-  return what + ": " + said("sensitivity.answer", facts).front();
+  if (!output.reason.empty()) return fmt::format("{}: no indices, {}.", what, output.reason);
+  const std::vector<ShownInput> inputs = shown_inputs(result.study.study);
+  const auto name = [&](std::size_t input) { return inputs[input].name; };
+  const auto named = [&](std::size_t input) {
+    return fmt::format("{} ({})", name(input), estimate_text(output.sobol.inputs[input].total));
+  };
+  std::vector<std::string> ranking, open, negligible;
+  for (const auto& group : ranked(output.sobol.inputs)) {
+    ranking.push_back(and_text(of_each(group, named)));
+    if (group.size() > 1) open.push_back(and_text(of_each(group, name)));
+  }
+  std::string text = fmt::format("{}: by total order, {}.", what, fmt::join(ranking, ", then "));
+  if (!open.empty()) text += fmt::format(" The intervals do not tell {} apart.", fmt::join(open, ", nor "));
+  for (std::size_t i = 0; i < output.sobol.inputs.size(); ++i)
+    if (output.sobol.inputs[i].total.upper < negligible_share) negligible.push_back(name(i));
+  if (!negligible.empty())
+    text += fmt::format(" Below {} of the variance, and so without influence here: {}.",
+                        in_words(negligible_share, significant(6, percent)), and_text(negligible));
+  return text;
 }
 
 // --- tables ---
@@ -126,7 +140,8 @@ std::string output_text(const SensitivityResult& result, const OutputSensitivity
 /// " at a gap of 0.02 cm", for outputs that belong to the study's gap.
 std::string at_gap(const Study& study, SensitivityOutput output) {
   if (output == SensitivityOutput::critical_gap) return {};
-  return " at a gap of " + centimetres(study.gaps.front());
+  return study.gaps.empty() ? " at the gap of each sample"
+                            : " at a gap of " + centimetres(study.gaps.front());
 }
 
 struct IndexRow {
@@ -222,12 +237,9 @@ std::string answer(const SensitivityResult& result) {
   for (const OutputSensitivity& output : result.outputs) lines.push_back(output_text(result, output));
   if (result.outputs.empty()) lines.emplace_back("There are no indices: the study did not come to its end.");
   const std::size_t all = result.rows.size(), failed = count_failed(result.rows);
-  const double share = static_cast<double>(failed) / static_cast<double>(all);
-  std::ranges::move(said("sensitivity.failed", {{"all", all},
-                                                {"failed", failed},
-                                                {"percent", shown_value(share, fixed(1, percent))},
-                                                {"failures", failures_list({}, result.study, result.rows)}}),
-                    std::back_inserter(lines));
+  lines.push_back(failed == 0 ? fmt::format("All {} evaluations completed.", all)
+                              : fmt::format("Failed: {} of {} evaluations: {}.", failed, all,
+                                            failures_list({}, result.study, result.rows)));
   lines.push_back(limited_text(result.rows, "evaluation"));
   std::ranges::move(report::verdict_notes(result.study, {}), std::back_inserter(lines));
   return joined_lines(std::move(lines));
@@ -245,15 +257,19 @@ Report report_of(const SensitivityResult& result) {
                    "sensitivity of " + shown_output(output.output).column.heading});
   }
   report.say("## What it rests on\n\n" + report::friction_remark(result.study));
-  report.say(said_below("sensitivity.rests"));
+  report.say(
+      "The indices hold for these distributions: another range of an input gives it another share. Where a "
+      "critical gap is only a bound, no indices are given.\n");
   report.say("## Setup\n\n" + report::setup_text(result.study));
   report.add({evaluation_table(result), "evaluations.csv", "evaluations", Shown::file});
   Row method = method_facts(result);
   method["text"] = method_text(result);
-  Row facts{{"method", method},
-            {"gap_cm", report::number(shown_gap(result.study.study.gaps.front()))},
-            {"inputs", report::axes_json(result.study.study)},
-            {"failed", count_failed(result.rows)}};
+  Row facts{
+      {"method", method},
+      {"gap_cm",
+       result.study.study.gaps.empty() ? Row() : report::number(shown_gap(result.study.study.gaps.front()))},
+      {"inputs", report::axes_json(result.study.study)},
+      {"failed", count_failed(result.rows)}};
   report.json = study_json(result.study, report, facts);
   return report;
 }
@@ -264,7 +280,9 @@ Table sensitivity_table(const SensitivityResult& result) {
     for (IndexRow& row : index_rows(result, output)) rows.push_back(std::move(row));
   std::vector<std::string> notes{method_text(result)};
   if (std::ranges::any_of(result.outputs, &OutputSensitivity::inert))
-    notes.push_back(said("sensitivity.inert").front());
+    notes.emplace_back(
+        "Some evaluations ignite. T max and margin are therefore those of a skin that does not react, as the "
+        "T max of a burning skin would jump; what matters to the reaction shows in the critical gap.");
   return table_of("Sensitivity", all_index_quantities, rows, notes);
 }
 

@@ -256,12 +256,15 @@ constexpr Outcome all_outcomes[] = {Outcome::held, Outcome::degraded, Outcome::c
 
 std::string legend(const Study& study) {
   const double tolerance = settings_of<StabilitySettings>(study).temperature_tolerance;
-  Row invariants = Row::array();
-  for (const Invariant& each : all_invariants())
-    invariants.push_back({{"name", each.name}, {"words", each.words}});
-  return fmt::format("{}\nInvariants, with a tolerance of T max of {} unless the case states its own:\n\n{}",
-                     said_below("stability.outcomes"), in_words(tolerance, significant(3, kelvin)),
-                     said_below("stability.invariants", {{"invariants", invariants}}));
+  std::string text = fmt::format(
+      "- **held**: what must hold held.\n"
+      "- **degraded**: it did not, a limiter acted or a validity warning holds, and the result says so.\n"
+      "- **caught**: the run was stopped, or the scene refused.\n"
+      "- **WRONG**: an invariant is violated, and no warning, limiter or stop says so.\n\n"
+      "Invariants, with a tolerance of T max of {} unless the case states its own:\n\n",
+      in_words(tolerance, significant(3, kelvin)));
+  for (const Invariant& each : all_invariants()) text += fmt::format("- `{}`: {}.\n", each.name, each.words);
+  return text;
 }
 
 Row counts_json(const StabilityResult& result) {
@@ -327,23 +330,30 @@ StabilityResult run_stability(const StudyFile& study, const StudyOptions& option
 }
 
 std::string answer(const StabilityResult& result) {
-  Row facts = counts_json(result);
-  facts["sound"] = result.count(Outcome::wrong) + count_missing(result) == 0;
-  facts["interrupted"] = result.interrupted;
+  std::string text = fmt::format("{}: {} held, {} degraded with a reason, {} caught, {} WRONG.",
+                                 report::counted(std::ssize(result.rows), "stress case"),
+                                 result.count(Outcome::held), result.count(Outcome::degraded),
+                                 result.count(Outcome::caught), result.count(Outcome::wrong));
+  if (result.count(Outcome::wrong) + count_missing(result) == 0)
+    text += "\nNo broken computation passes for a sound one.";
+  const char* heading = "\nNot as the study expects:";
   for (const StressCaseRow& row : result.rows)
-    if (!row.is_as_expected())
-      facts["unexpected"].push_back(
-          {{"case", row.asked.label()}, {"outcome", outcome_text(row)}, {"finding", finding_text(row)}});
-  return fmt::format("{}", fmt::join(said("stability.answer", facts), "\n"));
+    if (!row.is_as_expected()) {
+      text +=
+          fmt::format("{}\n- {}: {}: {}", heading, row.asked.label(), outcome_text(row), finding_text(row));
+      heading = "";
+    }
+  if (result.interrupted) text += "\nThe study was interrupted: some cases were not computed.";
+  return text;
 }
 
 Report report_of(const StabilityResult& result) {
   Report report{result.study.study.title, answer(result), report::remaking_command(result.study)};
   report.items = {
       ReportTable{not_held_table(result)},
-      report::Statement{"All cases with their numbers: `stability.csv`.\n"},
+      std::string{"All cases with their numbers: `stability.csv`.\n"},
       ReportTable{stability_table(result), "stability.csv", "cases", Shown::file},
-      report::Statement{"## What the outcomes mean\n\n" + legend(result.study.study)},
+      "## What the outcomes mean\n\n" + legend(result.study.study),
   };
   report.json = study_json(result.study, report, {{"counts", counts_json(result)}});
   return report;

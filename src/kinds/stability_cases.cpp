@@ -60,7 +60,7 @@ Changed with_keys(SceneFile start, const std::vector<OverrideTable>& all, const 
     const auto later = changes_in(table, file, "a table of scene keys, written { key = value, ... }", start);
     if (!later) return later.error();
     for (const Change& each : *later) {
-      const auto overrides = taken(scene::describe_key(start, each.name, each.place)).overrides;
+      const auto overrides = scene::describe_key(start, each.name, each.place).overrides;
       std::erase_if(changes, [&](const Change& change) {
         return change.name == each.name || std::ranges::count(overrides, change.name) > 0;
       });
@@ -76,8 +76,8 @@ SceneFile starting_scene(const CaseReader& reader) {
   if (reader.launch.scene.empty()) return reader.study.scene;
   const toml::node* at = reader.table.get("scene");
   const Place place = scene::place_of(at ? *at : reader.table, reader.study.file);
-  const SceneFile own = taken(scene::read_scene(scene::named_file(
-      reader.source.folder, reader.launch.scene, place, "group.cases.scene", "a scene file")));
+  const SceneFile own = scene::read_scene(scene::named_file(reader.source.folder, reader.launch.scene, place,
+                                                            "group.cases.scene", "a scene file"));
   return taken(with_keys(own, {{"set", reader.source.root.get("set")}}, reader.study.file));
 }
 
@@ -126,7 +126,9 @@ void read_case(CaseReader reader) {
   StressCase& launch = reader.launch;
   launch.group = launch.name;
   const std::string& file = reader.study.file;
-  taken(scene::read_table(reader.table, case_keys, {"set", "against"}, file, launch), "group.cases");
+  scene::within("group.cases", [&] {
+    return scene::read_table(reader.table, case_keys, {"set", "against"}, file, launch);
+  });
   const auto& settings = settings_of<StabilitySettings>(reader.study);
   if (std::isnan(launch.tolerance)) launch.tolerance = settings.temperature_tolerance;
   if (std::ranges::count(settings.cases, launch.label(), &StressCase::label) > 0)
@@ -141,7 +143,9 @@ void read_case(CaseReader reader) {
 
 void read_group(const toml::table& group, const StudySource& source, StudyFile& study) {
   StressCase defaults;
-  taken(scene::read_table(group, case_keys, {"set", "against", "cases"}, study.file, defaults), "group");
+  scene::within("group", [&] {
+    return scene::read_table(group, case_keys, {"set", "against", "cases"}, study.file, defaults);
+  });
   const toml::node* cases = group.get("cases");
   if (!cases || !cases->is_array_of_tables())
     throw error_at(scene::place_of(cases ? *cases : group, study.file), "group.cases",
@@ -153,7 +157,7 @@ void read_group(const toml::table& group, const StudySource& source, StudyFile& 
 
 void make_stability_cases(const StudySource& source, StudyFile& study) {
   const std::string allowed = "at least one table, written [[group]], with a case that has a run";
-  for (const toml::table* group : taken(scene::tables_of(source.root, "group", study.file, allowed)))
+  for (const toml::table* group : scene::tables_of(source.root, "group", study.file, allowed))
     read_group(*group, source, study);
   if (study.cases.empty())
     throw error_at(place_of_key(study, source.root.contains("group") ? "group" : "kind"), "group",

@@ -86,7 +86,7 @@ void read_shared_references(const StudySource& source, StudyFile& study) {
       read_named_file(study, source.folder, key, name, fmt::format("a file with {}", tables));
   study.records.push_back(store::sha256(text));
   const std::string file = (source.folder / name).string();
-  const toml::table table = taken(scene::parse_toml(text, file));
+  const toml::table table = scene::parse_toml(text, file);
   for (const auto& [each, node] : table)
     if (each.str() != table_name)
       throw error_at(scene::place_of(node, file), std::string(each.str()), "a key of another kind of file",

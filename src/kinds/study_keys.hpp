@@ -59,13 +59,6 @@ StudyOutcome outcome_of(const StudyFile& study, const StudyOptions& options) {
   return outcome;
 }
 
-/// What the texts under a name say, "accuracy.answer" those of "accuracy.answer.bound" too: in their order,
-/// each once for everything that it is said of; empty ones are left out.
-std::vector<std::string> said(const std::string& name, const Row& facts = Row::object());
-
-/// The same below each other, as part of a page: with a line break behind each.
-std::string said_below(const std::string& name, const Row& facts = Row::object());
-
 /// Whether a gap of the study ignites in any case, so that T max jumps to that of a burning skin.
 inline bool any_ignites(const std::vector<CaseRow>& rows, std::size_t gap) {
   return std::ranges::any_of(rows, [gap](const CaseRow& row) {
@@ -164,11 +157,10 @@ using StudyKeys = std::vector<Key<Study>>;
 
 // Readers of study files throw what is wrong; kinds::read_study gives it back as a value.
 
-/// What was read, or else refused; `table`: of the study file, in which it stands.
+/// What was read, or else refused.
 template <class Read>
-Read taken(Expected<Read> read, const std::string& table = {}) {
-  if (!read) throw table.empty() ? read.error() : scene::within(table, read.error());
-  return std::move(*read);
+Read taken(Expected<Read> read) {
+  return std::move(read).or_throw();
 }
 
 /// Keys of every kind, with the kind itself.

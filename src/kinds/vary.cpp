@@ -149,11 +149,13 @@ KeyDescription read_scene_key(VaryReader& reader, const Varied& admitted) {
   const toml::node* node = reader.table.get("key");
   const KeyDescription description = *scene::find_key(vary_keys({}), "key");
   if (!node) reader.refuse("key", "nothing; the key is missing", allowed_text(description));
-  const std::string name =
-      std::get<std::string>(taken(scene::read_value(*node, description, reader.study.file), table_name));
+  const std::string name = std::get<std::string>(
+      scene::within(table_name, [&] { return scene::read_value(*node, description, reader.study.file); }));
   const Place place = scene::place_of(*node, reader.study.file);
   reader.places["key"] = place;
-  if (name == "gap" || name == "gap.thickness")
+  if (name == study::gap_key && admitted.distributions)
+    return scene::describe_key(reader.study.scene, name, place);
+  if (name == "gap" || name == study::gap_key)
     reader.refuse("key", name + ", which all cases share",
                   "a scene key that takes one number; the gaps are the study's key gaps");
   KeyDescription key = varied_key(reader.study, name, "vary.key", place);
@@ -172,8 +174,9 @@ void check_values(const VaryReader& reader) {
 
 void read_entry(VaryReader& reader, const Varied& admitted) {
   const KeyDescription key = reader.text.key = read_scene_key(reader, admitted);
-  reader.places =
-      taken(scene::read_table(reader.table, vary_keys(key), {}, reader.study.file, reader.text), table_name);
+  reader.places = scene::within(table_name, [&] {
+    return scene::read_table(reader.table, vary_keys(key), {}, reader.study.file, reader.text);
+  });
   for (const auto& [given, place] : reader.places) reader.study.places[reader.study_key(given)] = place;
   check_free(reader.study, key.name, reader.place_of("key"), "vary.key");
   Axis axis{study::name_of_axis(key.name), reader.study_key("key"), key, {}};

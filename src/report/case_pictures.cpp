@@ -21,7 +21,7 @@ void add_shown(const DrawnCase& drawn, const std::vector<run::Snapshot>& snapsho
   }
 }
 
-std::vector<CasePicture> pressure_pictures(const DrawnCase& drawn) {
+std::vector<Picture> pressure_pictures(const DrawnCase& drawn) {
   const trace::BottomTrace& trace = drawn.result.mechanics.trace;
   const auto highest = [](const std::vector<double>& pressure) {
     return in_words(std::ranges::max(pressure), significant(3, megapascal));
@@ -32,31 +32,23 @@ std::vector<CasePicture> pressure_pictures(const DrawnCase& drawn) {
   return {{"pressure.svg", std::move(plot)}};
 }
 
-std::vector<CaseTable> pressure_tables(const DrawnCase& drawn) {
+std::vector<ReportTable> pressure_tables(const DrawnCase& drawn) {
   const trace::BottomTrace& trace = drawn.result.mechanics.trace;
-  return {{"pressure.csv",
-           sample_table({{drawn_time(), at_sample(trace.time)},
+  return {{sample_table({{drawn_time(), at_sample(trace.time)},
                          {"chamber", "chamber", keys::significant(6, megapascal),
                           "Mean pressure of the chamber on the base.", at_sample(trace.chamber_pressure)},
                          {"bottom", "bottom", keys::significant(6, megapascal),
                           "Mean pressure of the charge's bottom.", at_sample(trace.bottom_pressure)}},
-                        trace.samples())}};
+                        trace.samples()),
+           "pressure.csv"}};
 }
 
 }  // namespace
 
-std::string shortened(const std::string& text, std::size_t longest) {
-  if (text.size() <= longest) return text;
-  std::size_t end = longest;
-  // Not within a character of several bytes.
-  while (end > 0 && (static_cast<unsigned char>(text[end]) & 0xc0U) == 0x80U) --end;
-  return text.substr(0, end) + "...";
-}
-
 Plot titled_plot(const DrawnCase& drawn, std::string title) {
   Plot plot;
   plot.title = std::move(title);
-  plot.subtitle = shortened(drawn.scene.title, 100);
+  plot.subtitle = drawn.scene.title;
   return plot;
 }
 

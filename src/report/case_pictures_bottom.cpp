@@ -66,8 +66,8 @@ Plot gap_plot(const DrawnCase& drawn, const run::GapResult& gap, const std::stri
 }
 
 /// "histories_0.04cm.svg".
-CasePicture picture_of_gap(const char* name, const run::GapResult& gap, Plot plot) {
-  return {fmt::format("{}_{}.svg", name, gap_in_name(gap.gap)), std::move(plot), {}, gap.gap};
+Picture picture_of_gap(const char* name, const run::GapResult& gap, Plot plot) {
+  return {fmt::format("{}_{}.svg", name, gap_in_name(gap.gap)), std::move(plot), {}, {}, gap.gap};
 }
 
 // --- profiles ---
@@ -110,13 +110,12 @@ bool has_combustion(const DrawnCase&, const run::GapResult& gap) {
   return gap.combustion && gap.combustion->samples() > 1;
 }
 
-void add_combustion(const DrawnCase& drawn, const run::GapResult& gap, std::vector<CasePicture>& pictures) {
+void add_combustion(const DrawnCase& drawn, const run::GapResult& gap, std::vector<Picture>& pictures) {
   const run::CombustionHistory& history = *gap.combustion;
   const auto add = [&](const char* name, std::string title, const std::string& axis,
-                       std::vector<Series> series, const char* remark = "") {
+                       std::vector<Series> series) {
     Plot plot = gap_plot(drawn, gap, axis);
     plot.title = std::move(title);
-    plot.subtitle += remark;
     plot.series = std::move(series);
     pictures.push_back(picture_of_gap(name, gap, std::move(plot)));
   };
@@ -125,8 +124,7 @@ void add_combustion(const DrawnCase& drawn, const run::GapResult& gap, std::vect
       fmt::format("Gap {}: {} burn within {} of ignition", centimetres(gap.gap),
                   in_words(history.burnt_mass.back(), keys::significant(2, gram)),
                   in_words(history.time.back() - history.time.front(), keys::significant(2, millisecond))),
-      burnt.label(), {time_series("", history.time, history.burnt_mass, burnt)},
-      "; a step: the skin of one more station burns");
+      burnt.label(), {time_series("", history.time, history.burnt_mass, burnt)});
   add("combustion_pressure",
       fmt::format("Gap {}: the bottom's mean pressure reaches {} after ignition", centimetres(gap.gap),
                   in_words(std::ranges::max(history.pressure), keys::significant(2, megapascal))),
@@ -150,8 +148,8 @@ std::string lacks_skins(const DrawnCase& drawn) {
   return gaps_with(has_skin, drawn).empty() ? "it holds no skin temperatures of any gap" : "";
 }
 
-std::vector<CasePicture> history_pictures(const DrawnCase& drawn) {
-  std::vector<CasePicture> pictures;
+std::vector<Picture> history_pictures(const DrawnCase& drawn) {
+  std::vector<Picture> pictures;
   for (const run::GapResult* gap : gaps_with(has_skin, drawn)) {
     const surface::SkinHistory& skin = gap->skin;
     // What burns is far hotter than all before: it would set the axis.
@@ -174,9 +172,9 @@ std::vector<CasePicture> history_pictures(const DrawnCase& drawn) {
   return pictures;
 }
 
-std::vector<CaseTable> history_tables(const DrawnCase& drawn) {
+std::vector<ReportTable> history_tables(const DrawnCase& drawn) {
   const std::vector<trace::Station>& stations = trace_of(drawn).stations;
-  std::vector<CaseTable> tables;
+  std::vector<ReportTable> tables;
   for (const run::GapResult* gap : gaps_with(has_skin, drawn)) {
     const surface::SkinHistory& skin = gap->skin;
     Quantities<std::size_t> quantities{{drawn_time(), at_sample(skin.time)}};
@@ -187,14 +185,14 @@ std::vector<CaseTable> history_tables(const DrawnCase& drawn) {
             return skin.temperature[sample * count + i];
           });
     tables.push_back(
-        {fmt::format("histories_{}.csv", gap_in_name(gap->gap)), sample_table(quantities, skin.time.size())});
+        {sample_table(quantities, skin.time.size()), fmt::format("histories_{}.csv", gap_in_name(gap->gap))});
   }
   return tables;
 }
 
-std::vector<CasePicture> profile_pictures(const DrawnCase& drawn) {
+std::vector<Picture> profile_pictures(const DrawnCase& drawn) {
   if (drawn.times.empty()) return {{"profile.svg", profile_plot(drawn, {})}};
-  std::vector<CasePicture> pictures;
+  std::vector<Picture> pictures;
   for (const double time : drawn.times)
     pictures.push_back({fmt::format("profile_{}ms.svg", digits_of(time, keys::significant(6, millisecond))),
                         profile_plot(drawn, time)});
@@ -233,7 +231,7 @@ const PictureKind combustion_kind{"combustion", "burnt mass and pressure after i
                                                : "";
                                   },
                                   [](const DrawnCase& drawn) {
-                                    std::vector<CasePicture> pictures;
+                                    std::vector<Picture> pictures;
                                     for (const run::GapResult* gap : gaps_with(has_combustion, drawn))
                                       add_combustion(drawn, *gap, pictures);
                                     return pictures;

@@ -238,7 +238,7 @@ std::string subject_of(const DrawnCase& drawn, const Field& field, const ShownSn
 CellPlot field_plot(const DrawnCase& drawn, const Field& field, const ShownSnapshot& shown) {
   const run::Snapshot& shot = *shown.snapshot;
   CellPlot plot;
-  plot.subtitle = shortened(drawn.scene.title, 100);
+  plot.subtitle = drawn.scene.title;
   plot.scales = scales_of(drawn, field, shot);
   plot.cells = cells_of(drawn, field, shot);
   for (const BodyCells& cells : bodies_of(drawn.scene)) {
@@ -275,22 +275,11 @@ std::vector<ShownSnapshot> chosen_snapshots(const DrawnCase& drawn) {
   return chosen;
 }
 
-/// Whether the particles of a snapshot are those that the scene's grid makes, body after body.
-bool fits(const scene::Scene& scene, const run::Snapshot& shot) {
-  std::vector<int> bodies;
-  for (const BodyCells& each : bodies_of(scene)) {
-    if (each.end() > shot.body.size()) return false;
-    bodies.resize(each.end(), static_cast<int>(each.body - scene.bodies.data()));
-  }
-  return bodies == shot.body;
-}
-
 std::string lacks_fields(const DrawnCase& drawn) {
   const auto snapshots = shown_snapshots(drawn);
   if (snapshots.empty()) return "it has no snapshots; output.snapshots of the scene asks for them";
   for (const ShownSnapshot& each : snapshots) {
     const run::Snapshot& shot = *each.snapshot;
-    if (!fits(drawn.scene, shot)) return "its snapshots do not fit the grid of its scene";
     const auto is_length = [](double length) { return length > 0.0; };
     for (const auto* lengths : {&shot.half_length_x, &shot.half_length_r})
       if (!std::ranges::all_of(*lengths, is_length)) return "a cell in its snapshots is inverted";
@@ -298,40 +287,20 @@ std::string lacks_fields(const DrawnCase& drawn) {
   return {};
 }
 
-std::vector<CasePicture> field_pictures(const DrawnCase& drawn) {
-  std::vector<CasePicture> pictures;
+std::vector<Picture> field_pictures(const DrawnCase& drawn) {
+  std::vector<Picture> pictures;
   for (const Field& field : run::snapshot_fields()) {
     if (!field.drawn || scale_groups(drawn, field).empty()) continue;
     for (const ShownSnapshot& each : chosen_snapshots(drawn)) {
       if (varies(scales_of(drawn, field, *each.snapshot)) || skin_in(drawn, field, each) != nullptr)
         pictures.push_back({fmt::format("field_{}{}.svg", field.name, name_of(each)),
-                            field_plot(drawn, field, each), each.snapshot->time, each.gap});
+                            field_plot(drawn, field, each),
+                            {},
+                            each.snapshot->time,
+                            each.gap});
     }
   }
   return pictures;
-}
-
-Quantities<std::size_t> particle_quantities(const DrawnCase& drawn, const run::Snapshot& shot) {
-  Quantities<std::size_t> quantities{
-      {"body", "body", keys::text(), "Body of the particle.",
-       [&](std::size_t i) { return drawn.scene.bodies[static_cast<std::size_t>(shot.body[i])].name; }},
-      {"x", "x", keys::significant(6, millimetre), "Of the particle at present.", at_sample(shot.x)},
-      {"r", "r", keys::significant(6, millimetre), "Likewise.", at_sample(shot.r)}};
-  for (const Field& field : run::snapshot_fields()) {
-    const std::string name(field.name), meaning(field.meaning);
-    const std::vector<double>& all = values_of(shot, field);
-    quantities.push_back({{name, name, form_of(field), meaning}, [&all](std::size_t i) {
-                            return all.empty() ? std::nullopt : std::optional(all[i]);
-                          }});
-  }
-  return quantities;
-}
-
-std::vector<CaseTable> field_tables(const DrawnCase& drawn) {
-  return study::of_each(chosen_snapshots(drawn), [&](const ShownSnapshot& each) {
-    return CaseTable{"field" + name_of(each) + ".csv",
-                     sample_table(particle_quantities(drawn, *each.snapshot), each.snapshot->x.size())};
-  });
 }
 
 }  // namespace
@@ -339,6 +308,6 @@ std::vector<CaseTable> field_tables(const DrawnCase& drawn) {
 const PictureKind fields_kind{"fields",
                               "pressure, von Mises stress, crack radius, burnt share and temperature with "
                               "the skin's at every snapshot, where they vary by 1 % at least",
-                              lacks_fields, field_pictures, field_tables};
+                              lacks_fields, field_pictures};
 
 }  // namespace launchsafe::report::detail

@@ -11,8 +11,6 @@ extern const PictureKind fields_kind, histories_kind, profile_kind, combustion_k
 /// Of a gap in the name of a file: "0.04cm".
 std::string gap_in_name(double gap);
 
-/// A text of at most `longest` bytes, about, with dots in the place of the rest.
-std::string shortened(const std::string& text, std::size_t longest);
 /// A plot with a title of its own above that of the scene.
 Plot titled_plot(const DrawnCase& drawn, std::string title);
 /// Likewise, of a quantity against time.

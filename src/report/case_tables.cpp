@@ -78,7 +78,10 @@ const Quantities<MechanicsResult>& launch_effects() {
 }
 
 Table run_table(const std::vector<NamedRun>& runs) {
-  return table_of("Runs", run_quantities, runs, noted("launch_effects"));
+  return table_of(
+      "Runs", run_quantities, runs,
+      {"Friction heat over work: friction heat of the charge over the net work done on it. Yielded "
+       "wall: the length of the steel beside the charge whose plastic strain exceeds 0.2 %."});
 }
 
 Table combustion_table(const run::CaseResult& result) {
@@ -86,7 +89,12 @@ Table combustion_table(const run::CaseResult& result) {
   for (const run::GapResult& gap : result.gaps)
     if (gap.combustion) burnt.push_back(&gap);
   Table table = table_of("After ignition, with two-way coupling", combustion_quantities, burnt);
-  if (!burnt.empty()) table.notes = noted("combustion");
+  if (!burnt.empty())
+    table.notes = {
+        "At the end of the run; p max is the largest over it. Released: the heat of reaction of what burnt. "
+        "Brought: its heat above the initial temperature before, from air, friction and slow reaction.",
+        "The closure and the localisation of friction are not calibrated for the motion that the gas causes: "
+        "how fast burning spreads over the bottom is a result of the model, and no prediction."};
   return table;
 }
 

@@ -1,8 +1,6 @@
 #include "launchsafe/report/plot.hpp"
 #include "launchsafe/report/table.hpp"
 
-#include <tuple>
-
 namespace launchsafe::report {
 
 std::string quoted(const std::string& text) {
@@ -46,13 +44,11 @@ std::string page_commands(double width, double height) {
 
 store::Result<std::string> to_svg(const Drawing& drawing, const DrawingLimits& limits,
                                   const std::string& program) {
-  const auto [title, why, commands] = std::visit(
+  const auto [title, commands] = std::visit(
       [](const auto& plot) {
-        const std::string unfitness = unfit(plot);
-        return std::tuple{plot.title, unfitness, unfitness.empty() ? to_gnuplot(plot) : ""};
+        return std::pair{plot.title, to_gnuplot(plot)};
       },
       drawing);
-  if (!why.empty()) return store::Error{store::Error::Kind::failed, "cannot draw '" + title + "': " + why};
   // --default-settings: the user's own start-up file must not change a report.
   auto run = store::run_program(program, {"--default-settings", "-"}, commands, limits);
   if (!run) return run.error();
@@ -270,19 +266,6 @@ constexpr std::string_view with_axes =
     "set border 3 linewidth 1 linecolor rgb '#444444'\nset xlabel \"x [mm]\"\nset ylabel \"r [mm]\"\n";
 
 }  // namespace
-
-std::string unfit(const CellPlot& plot) {
-  if (plot.cells.empty()) return "it has no cells";
-  const bool are_cells = std::ranges::all_of(plot.cells, [](const FieldCell& cell) {
-    return std::isfinite(cell.x) && std::isfinite(cell.r) && cell.half_x > 0.0 && cell.half_r > 0.0;
-  });
-  if (!are_cells) return "a cell has no place or no extent";
-  if (plot.outlines.empty()) return "it has no body";
-  const bool have_ranges = std::ranges::all_of(plot.scales, [](const ColourScale& scale) {
-    return std::isfinite(scale.minimum) && std::isfinite(scale.maximum);
-  });
-  return have_ranges && !plot.scales.empty() ? "" : "its colours have no range";
-}
 
 std::string to_gnuplot(const CellPlot& plot) {
   const CellPanel panel = plot.window ? window_section(plot) : whole_section(plot);

@@ -186,13 +186,6 @@ std::string axis_commands(const std::string& name, const PlotAxis& axis) {
   if (axis.minimum) text += fmt::format("set {}range [{}:]\n", name, exact(*axis.minimum));
   if (axis.maximum) text += fmt::format("set {}range [:{}]\n", name, exact(*axis.maximum));
   if (axis.scale == Scale::logarithmic) text += fmt::format("set logscale {0}\nset format {0} '%g'\n", name);
-  // One or two powers of ten do not tell how long a step is.
-  if (axis.scale == Scale::logarithmic && axis.minimum && axis.maximum &&
-      *axis.maximum < 100.0 * *axis.minimum)
-    text += fmt::format(
-        "set for [k=-12:12] {}tics add (sprintf('%g', 2*10.**k) 2*10.**k, sprintf('%g', 5*10.**k) "
-        "5*10.**k)\n",
-        name);
   std::vector<std::string> tics;
   for (const Tic& tic : axis.tics)
     if (drawable(tic.at, axis.scale)) tics.push_back(quoted(tic.label) + " " + exact(tic.at));
@@ -237,10 +230,7 @@ std::string panel_commands(const Plot& plot) {
 
 /// At most ten round values.
 std::vector<Tic> tics_between(double least, double most) {
-  const double wanted = (most - least) / 9.0, power = std::pow(10.0, std::floor(std::log10(wanted)));
-  double step = 10.0 * power;
-  for (const double digit : {5.0, 2.0, 1.0})
-    if (digit * power >= wanted) step = digit * power;
+  const double step = round_distance((most - least) / 9.0);
   std::vector<Tic> tics;
   for (double at = step * std::ceil(least / step); at < most; at += step)
     tics.push_back({at, significant(at, 6)});
@@ -248,26 +238,6 @@ std::vector<Tic> tics_between(double least, double most) {
 }
 
 }  // namespace
-
-std::string unfit(const Plot& plot) {
-  for (const Plot& panel : plot.panels)
-    if (std::string why = unfit(panel); !why.empty()) return panel.title + ": " + why;
-  if (!plot.panels.empty()) return {};
-  for (const PlotAxis* axis : {&plot.x, &plot.y}) {
-    const bool fits = drawable(axis->minimum.value_or(1.0), axis->scale) &&
-                      drawable(axis->maximum.value_or(1.0), axis->scale);
-    if (!fits) return "a limit has no place on its axis: " + axis->label;
-  }
-  for (const Series& series : plot.series) {
-    const std::size_t points = series.x.size();
-    if (series.y.size() != points) return "a series has as many x as y: " + series.label;
-    if (has_bars(series) && (series.lower.size() != points || series.upper.size() != points))
-      return "a series has a bar for every point: " + series.label;
-  }
-  const bool has_points =
-      std::ranges::any_of(plot.series, [](const Series& series) { return !series.x.empty(); });
-  return has_points ? "" : "it has no points";
-}
 
 std::string to_gnuplot(const Plot& plot) {
   if (!plot.panels.empty()) return panel_commands(plot);

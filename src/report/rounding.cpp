@@ -14,7 +14,7 @@ std::string not_finite(double value) {
 }
 
 /// A number in one of fmt's notations; "-0.00" without its sign.
-std::string rounded(double value, const char* notation, int digits) {
+std::string printed(double value, const char* notation, int digits) {
   std::string text = not_finite(value);
   if (!text.empty()) return text;
   text = fmt::format(fmt::runtime(notation), value, digits);
@@ -27,20 +27,13 @@ constexpr double round_off = 1e-12;
 
 int leading_place(double value) { return static_cast<int>(std::floor(std::log10(value) + round_off)); }
 
-double cut(double value, int decimals, double direction) {
-  const double scale = std::pow(10.0, decimals), scaled = value * scale;
-  const double nearest = std::round(scaled);
-  if (std::abs(scaled - nearest) <= round_off * std::max(1.0, std::abs(scaled))) return nearest / scale;
-  return (direction < 0 ? std::floor(scaled) : std::ceil(scaled)) / scale;
-}
-
 }  // namespace
 
-std::string fixed(double value, int decimals) { return rounded(value, "{:.{}f}", decimals); }
-std::string scientific(double value, int decimals) { return rounded(value, "{:.{}e}", decimals); }
+std::string fixed(double value, int decimals) { return printed(value, "{:.{}f}", decimals); }
+std::string scientific(double value, int decimals) { return printed(value, "{:.{}e}", decimals); }
 std::string significant(double value, int digits) {
   constexpr double least_power = 1e6;  // what people read as a power of ten
-  const std::string text = rounded(value, "{:.{}g}", digits);
+  const std::string text = printed(value, "{:.{}g}", digits);
   if (text.find("e+") == std::string::npos || std::abs(value) >= least_power) return text;
   return fixed(std::stod(text), 0);  // "180", not "1.8e+02"
 }
@@ -89,53 +82,38 @@ std::size_t display_width(std::string_view text) {
   return width;
 }
 
-// --- with an uncertainty ---
-
-int decimals_for(double uncertainty) {
-  if (!(uncertainty > 0.0) || !std::isfinite(uncertainty)) return 0;
-  return std::max(0, 1 - leading_place(uncertainty));
+double rounded(double value, int decimals, Rounding side) {
+  const double scale = std::pow(10.0, decimals), scaled = value * scale, nearest = std::round(scaled);
+  const bool is_there = std::abs(scaled - nearest) <= round_off * std::max(1.0, std::abs(scaled));
+  if (is_there || side == Rounding::nearest) return nearest / scale;
+  return (side == Rounding::down ? std::floor(scaled) : std::ceil(scaled)) / scale;
 }
 
-double rounded_down(double value, int decimals) { return cut(value, decimals, -1.0); }
-double rounded_up(double value, int decimals) { return cut(value, decimals, 1.0); }
-
-std::string Measured::text(const std::string& unit) const {
-  const std::string middle = fixed(value, decimals), up = fixed(plus, decimals),
-                    down = fixed(minus, decimals);
-  const std::string end = unit.empty() ? "" : " " + unit;
-  if (up == down) return fmt::format("{} ± {}{}", middle, up, end);
-  return fmt::format("{} +{} −{}{}", middle, up, down, end);
+std::string shown_digits(double value, const Form& form) {
+  if (form.rounding != Rounding::nearest && std::isfinite(value) && value != 0.0)
+    value = rounded(
+        value,
+        form.notation == Notation::fixed ? form.digits : form.digits - 1 - leading_place(std::abs(value)),
+        form.rounding);
+  if (form.notation == Notation::scientific) return scientific(value, form.digits);
+  if (form.notation == Notation::significant) return significant(value, form.digits);
+  return fixed(value, form.digits);
 }
 
-Measured measured(double value, double minus, double plus) {
-  Measured shown;
-  shown.decimals = decimals_for(std::max(minus, plus));
-  shown.value = rounded_down(value, shown.decimals);
-  shown.minus = rounded_up(minus, shown.decimals);
-  // The value went down, and its upper end must not.
-  shown.plus = rounded_up(std::max(plus, minus == plus ? plus : value + plus - shown.value), shown.decimals);
-  return shown;
-}
-
-std::optional<Measured> measured_gap(double value, double at_least, double at_most) {
-  const double minus = value - at_least, plus = at_most - value;
-  if (!std::isfinite(minus) || !std::isfinite(plus) || !(std::max(minus, plus) > 0.0)) return std::nullopt;
-  Measured shown = measured(value, minus, plus);
-  // No gap is below 0, though the value was cut.
-  if (at_least >= 0.0) shown.minus = std::min(shown.minus, shown.value);
-  return shown;
-}
-
-std::string allowed_text(double value, int decimals) {
-  return fixed(rounded_down(value, decimals), decimals);
-}
-
-std::string uncertain_text(double value, int digits) {
-  if (!(value > 0.0) || !std::isfinite(value)) return fixed(value, 0);
-  const int decimals = digits - 1 - leading_place(value);
-  if (decimals >= 0) return significant(rounded_up(value, decimals), digits);
-  const double unit = std::pow(10.0, -decimals);
-  return fixed(unit * rounded_up(value / unit, 0), 0);
+std::string between_bounds(double value, double at_least, double at_most, const std::string& unit) {
+  double minus = value - at_least, plus = at_most - value;
+  const double larger = std::max(minus, plus);
+  if (!std::isfinite(minus) || !std::isfinite(plus) || !(larger > 0.0)) return {};
+  const bool are_equal = minus == plus;
+  const int decimals = std::max(0, 1 - leading_place(larger));
+  const double middle = rounded(value, decimals, Rounding::down);
+  minus = rounded(minus, decimals, Rounding::up);
+  // The value went down, and its upper end must not. No gap is below 0, though the value was cut.
+  plus = rounded(are_equal ? plus : value + plus - middle, decimals, Rounding::up);
+  if (at_least >= 0.0) minus = std::min(minus, middle);
+  const std::string up = fixed(plus, decimals), down = fixed(minus, decimals);
+  if (up == down) return fmt::format("{} ± {} {}", fixed(middle, decimals), up, unit);
+  return fmt::format("{} +{} −{} {}", fixed(middle, decimals), up, down, unit);
 }
 
 }  // namespace launchsafe::report

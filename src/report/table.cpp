@@ -4,19 +4,13 @@
 #include "launchsafe/scene/quantity.hpp"
 
 #include <boost/algorithm/string/replace.hpp>
+#include <kainjow/mustache.hpp>
 #include <nlohmann/json.hpp>
 
 #include <numeric>
-#include <set>
 
 namespace launchsafe::report {
 namespace {
-
-std::string rounded(double value, const Form& form) {
-  if (form.notation == Notation::scientific) return scientific(value, form.digits);
-  if (form.notation == Notation::significant) return significant(value, form.digits);
-  return fixed(value, form.digits);
-}
 
 /// Places of the columns that people or programs read.
 std::vector<std::size_t> places_for(const Table& table, Audience audience) {
@@ -33,42 +27,16 @@ bool is_text(const Column& column) { return column.form.notation == Notation::te
 /// A cell as people read it.
 std::string cell_text(const Cell& cell, const Column& column) {
   if (const auto* text = std::get_if<std::string>(&cell)) return *text;
-  if (const auto* number = std::get_if<double>(&cell)) return rounded(*number, column.form);
+  if (const auto* number = std::get_if<double>(&cell)) return shown_digits(*number, column.form);
   if (const auto* count = std::get_if<std::int64_t>(&cell)) return std::to_string(*count);
   return {};
 }
 
-/// What people read: the cells as text, the headings first, without columns that are empty in all rows, and
-/// below it what several rows say alike.
+/// What people read: the cells as text, the headings first, without columns that are empty in all rows.
 struct Grid {
   std::vector<Column> columns;
   std::vector<std::vector<std::string>> lines;
-  std::vector<std::string> below;
 };
-
-/// The clauses with which all cells of a column end alike; empty where they are short.
-std::string shared_end(const std::vector<std::string>& cells) {
-  if (cells.size() < 2) return {};
-  std::string shared = cells.front();
-  const auto is_end = [&](const std::string& cell) {
-    return cell == shared || cell.ends_with("; " + shared);
-  };
-  while (!shared.empty() && !std::ranges::all_of(cells, is_end)) {
-    const std::size_t next = shared.find("; ");
-    shared = next == std::string::npos ? "" : shared.substr(next + 2);
-  }
-  return shared.size() >= shortest_shared_sentence ? shared : "";
-}
-
-/// Takes out of the cells of a column what they share; below stands what it was.
-void share_sentences(const std::string& label, std::vector<std::string>& cells,
-                     std::vector<std::string>& below) {
-  if (const std::string shared = shared_end(cells); !shared.empty()) {
-    below.push_back(fmt::format("{}, in all rows: {}", label, shared));
-    for (std::string& cell : cells)
-      cell.erase(cell.size() - shared.size() - (cell.size() > shared.size() ? 2 : 0));
-  }
-}
 
 template <class Escape>
 Grid grid_of(const Table& table, Escape escape) {
@@ -78,14 +46,11 @@ Grid grid_of(const Table& table, Escape escape) {
     const Column& column = table.columns[place];
     std::vector<std::string> cells;
     for (const auto& row : table.rows) cells.push_back(cell_text(row[place], column));
-    if (is_text(column)) share_sentences(column.label(), cells, grid.below);
-    const auto is_empty = [](const std::string& cell) { return cell.empty(); };
-    if (!cells.empty() && std::ranges::all_of(cells, is_empty)) continue;
+    if (!cells.empty() && std::ranges::all_of(cells, &std::string::empty)) continue;
     grid.columns.push_back(column);
     grid.lines.front().push_back(escape(column.label()));
     for (std::size_t i = 0; i < cells.size(); ++i) grid.lines[i + 1].push_back(escape(cells[i]));
   }
-  for (std::string& each : grid.below) each = escape(each);
   return grid;
 }
 
@@ -146,34 +111,16 @@ Grid part_of(const Grid& grid, const std::vector<std::size_t>& places) {
   return part;
 }
 
-/// How many columns tell the rows apart, from the first on; 1 where they take half the width or more.
-std::size_t leading_columns(const Grid& grid, const std::vector<std::size_t>& widths, std::size_t width) {
-  std::size_t taken = widths[0];
-  for (std::size_t count = 1; 2 * taken < width && count < widths.size(); taken += 2 + widths[count++]) {
-    std::set<std::vector<std::string>> seen;
-    for (std::size_t i = 1; i < grid.lines.size(); ++i)
-      seen.emplace(grid.lines[i].begin(), grid.lines[i].begin() + static_cast<std::ptrdiff_t>(count));
-    if (seen.size() + 1 == grid.lines.size()) return count;
-  }
-  return 1;
-}
-
-/// Below each other as many columns as fit, each time behind those that tell the rows apart; one that does
-/// not fit even so stands alone with these. Width 0: all.
+/// Below each other as many columns as fit, each time behind the first; a column that does not fit even so
+/// stands alone with it. Width 0: all.
 std::string text_parts(const Grid& grid, std::size_t width) {
   const auto widths = widths_of(grid, text_frame.narrowest);
   const std::size_t needed = std::accumulate(widths.begin(), widths.end(), 2 * widths.size());
   if (width == 0 || widths.size() < 2 || needed <= width + 2) return lines_of(grid, text_frame);
-  std::vector<std::size_t> leading(leading_columns(grid, widths, width));
-  std::iota(leading.begin(), leading.end(), 0);
-  const std::size_t begin =
-      std::accumulate(leading.begin(), leading.end(), std::size_t{0},
-                      [&](std::size_t sum, std::size_t i) { return sum + widths[i] + 2; });
   std::string text;
-  for (std::size_t next = leading.size(); next < grid.columns.size();) {
-    std::vector<std::size_t> places = leading;
-    places.push_back(next);
-    std::size_t taken = begin + widths[next];
+  for (std::size_t next = 1; next < grid.columns.size();) {
+    std::vector<std::size_t> places{0, next};
+    std::size_t taken = widths[0] + 2 + widths[next];
     while (++next < grid.columns.size() && (taken += 2 + widths[next]) <= width) places.push_back(next);
     text += (text.empty() ? "" : "\n") + lines_of(part_of(grid, places), text_frame);
   }
@@ -199,6 +146,13 @@ nlohmann::ordered_json json_cell(const Cell& cell) {
   return number != nullptr && std::isfinite(*number) ? nlohmann::ordered_json(*number) : nullptr;
 }
 
+nlohmann::ordered_json json_row(const std::vector<Cell>& cells, const std::vector<std::string>& keys,
+                                const std::vector<std::size_t>& places) {
+  auto row = nlohmann::ordered_json::object();
+  for (const std::size_t i : places) row[keys[i]] = json_cell(cells[i]);
+  return row;
+}
+
 }  // namespace
 
 Cell shown_cell(Cell cell_si, const Column& column) {
@@ -211,7 +165,7 @@ double shown_value(double value_si, const Form& form) {
 }
 
 std::string digits_of(double value_si, const Form& form) {
-  return rounded(shown_value(value_si, form), form);
+  return shown_digits(shown_value(value_si, form), form);
 }
 
 std::string in_words(double value_si, const Form& form) {
@@ -236,13 +190,7 @@ std::string markdown_escaped(const std::string& text) {
 
 std::vector<std::string> keys_of(const Table& table) {
   std::vector<std::string> keys;
-  for (const Column& column : table.columns) {
-    const std::string wanted = column.key();
-    std::string key = wanted;
-    for (int number = 2; std::ranges::find(keys, key) != keys.end(); ++number)
-      key = wanted + "_" + std::to_string(number);
-    keys.push_back(key);
-  }
+  for (const Column& column : table.columns) keys.push_back(column.key());
   return keys;
 }
 
@@ -250,9 +198,7 @@ std::string to_text(const Table& table, std::size_t width) {
   const Grid grid = grid_of(table, on_one_line);
   std::string text = table.title.empty() ? "" : table.title + "\n\n";
   text += text_parts(grid, width);
-  std::vector<std::string> notes = grid.below;
-  notes.insert(notes.end(), table.notes.begin(), table.notes.end());
-  for (std::size_t i = 0; i < notes.size(); ++i) text += (i == 0 ? "\n" : "") + notes[i] + "\n";
+  if (!table.notes.empty()) text += fmt::format("\n{}\n", fmt::join(table.notes, "\n"));
   return text;
 }
 
@@ -260,9 +206,28 @@ std::string to_markdown(const Table& table) {
   const Grid grid = grid_of(table, markdown_escaped);
   std::string text = table.title.empty() ? "" : "**" + markdown_escaped(table.title) + "**\n\n";
   text += lines_of(grid, markdown_frame);
-  for (const std::string& note : grid.below) text += "\n" + note + "\n";
   for (const std::string& note : table.notes) text += "\n" + markdown_escaped(note) + "\n";
   return text;
+}
+
+std::string to_html(const Table& table, const std::string& id) {
+  const Grid grid = grid_of(table, kainjow::mustache::html_escape<std::string>);
+  std::string html = fmt::format("<table id=\"{}-table\">\n<caption>{}</caption>\n", id,
+                                 kainjow::mustache::html_escape(table.title));
+  for (std::size_t line = 0; line < grid.lines.size(); ++line) {
+    html += line == 0 ? "<thead><tr>" : "<tr>";
+    for (std::size_t i = 0; i < grid.columns.size(); ++i) {
+      const std::string &cell = grid.lines[line][i], &heading = grid.lines[0][i];
+      const bool is_verdict = line > 0 && grid.columns[i].name.starts_with("verdict");
+      html += fmt::format("<{0} class=\"{1}\" data-heading=\"{2}\">{3}</{0}>", line == 0 ? "th" : "td",
+                          is_verdict                 ? cell
+                          : is_text(grid.columns[i]) ? ""
+                                                     : "number",
+                          heading, cell);
+    }
+    html += line == 0 ? "</tr></thead>\n<tbody>\n" : "</tr>\n";
+  }
+  return html + "</tbody>\n</table>\n";
 }
 
 std::string to_csv(const Table& table) {
@@ -297,27 +262,17 @@ nlohmann::ordered_json json_rows(const Table& table) {
   auto rows = nlohmann::ordered_json::array();
   const auto keys = keys_of(table);
   const auto places = places_for(table, Audience::programs);
-  for (const auto& row : table.rows) {
-    auto& object = rows.emplace_back(nlohmann::ordered_json::object());
-    for (const std::size_t i : places) object[keys[i]] = json_cell(row[i]);
-  }
+  for (const auto& row : table.rows) rows.push_back(json_row(row, keys, places));
   return rows;
 }
 
 void append_json_rows(std::string& text, const Table& table) {
-  constexpr auto replace = nlohmann::ordered_json::error_handler_t::replace;
+  const auto keys = keys_of(table);
   const auto places = places_for(table, Audience::programs);
-  std::vector<std::string> keys;
-  for (const std::string& key : keys_of(table))
-    keys.push_back(nlohmann::ordered_json(key).dump(-1, ' ', false, replace) + ": ");
-  for (const auto& row : table.rows) {
-    text += text.ends_with('[') ? "\n    {" : ",\n    {";
-    for (std::size_t i = 0; i < places.size(); ++i) {
-      if (i > 0) text += ", ";
-      text += keys[places[i]] + json_cell(row[places[i]]).dump(-1, ' ', false, replace);
-    }
-    text += '}';
-  }
+  for (const auto& row : table.rows)
+    text +=
+        (text.ends_with('[') ? "\n    " : ",\n    ") +
+        json_row(row, keys, places).dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace);
 }
 
 }  // namespace launchsafe::report

@@ -53,16 +53,16 @@ void add_critical_gap(const Row& critical, Plot& plot) {
                at_most = number_of(critical, "critical_gap_at_most_cm");
   if (!std::isfinite(value)) return;
   plot.vertical_lines = {{value, "critical gap"}};
-  const auto known = measured_gap(value, at_least, at_most);
-  if (!known) return;
-  Band& bounds = plot.vertical_bands.emplace_back(
-      Band{std::max(0.0, known->lower()), known->upper(), "bounds of the critical gap"});
+  if (!std::isfinite(at_least) || !std::isfinite(at_most)) return;
+  const Band& bounds =
+      plot.vertical_bands.emplace_back(Band{at_least, at_most, "bounds of the critical gap"});
   double largest = value;
   for (const Series& series : plot.series) largest = std::max(largest, std::ranges::max(series.x));
   if (bounds.to <= 1.3 * largest) return;
   plot.x.maximum = 1.3 * largest;
-  plot.subtitle += fmt::format("{}the bounds of the critical gap go on to {} cm",
-                               plot.subtitle.empty() ? "" : "; ", significant(bounds.to, 3));
+  plot.subtitle +=
+      fmt::format("{}the bounds of the critical gap go on to {} cm", plot.subtitle.empty() ? "" : "; ",
+                  shown_digits(bounds.to, quantity::upper_bound.form));
 }
 
 }  // namespace

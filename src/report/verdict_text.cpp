@@ -11,53 +11,20 @@ namespace {
 
 using keys::fixed, keys::significant, keys::text;
 
-/// The charge off the grid lines, in the scene of a study or in those of its cases, which may have meshes and
-/// bodies of their own.
-void add_off_grid(const study::StudyFile& study, Row& facts) {
-  std::size_t count = 0;
-  const auto add = [&](const std::string& label, const scene::Scene& scene) {
-    const std::string edges = scene::charge_edges_off_grid(scene);
-    if (!edges.empty() && count++ == 0) facts["edges"] = label.empty() ? edges : label + ": " + edges;
-  };
-  if (study.study.axes.empty()) {
-    add("", study.scene.scene);
-  } else {
-    for (const study::StudyCase& each : study.cases) add(each.label, each.scene.scene);
-    facts["of_cases"] = study.cases.size();
-  }
-  facts["count"] = count;
+/// A note on the first charge that lies off the grid lines, in the scene of a study or in those of its cases,
+/// which may have meshes and bodies of their own. Empty without such a charge.
+std::string off_grid_note(const study::StudyFile& study) {
+  std::string edges =
+      scene::charge_edges_off_grid(study.study.axes.empty() ? study.scene.scene : scene::Scene{});
+  for (std::size_t i = 0; !study.study.axes.empty() && edges.empty() && i < study.cases.size(); ++i)
+    if (const std::string found = scene::charge_edges_off_grid(study.cases[i].scene.scene); !found.empty())
+      edges = study.cases.label(i) + ": " + found;
+  return edges.empty() ? ""
+                       : fmt::format(
+                             "The charge lies off the grid lines ({}): calibrated constants do not carry "
+                             "over from a grid that fits.",
+                             edges);
 }
-
-/// Adds name = "..." for what is open and may be accepted, each name once.
-void add_lines(const std::vector<study::CaseRow>& rows, std::vector<study::Remark> study::CaseRow::*remarks,
-               const char* heading, std::vector<std::string>& lines) {
-  std::set<std::string> names;
-  for (const study::CaseRow& row : rows)
-    for (const study::Remark& each : row.*remarks)
-      if (each.is_open() && each.acceptable) names.insert(each.name);
-  if (!names.empty()) lines.emplace_back(heading);
-  for (const std::string& name : names) lines.push_back(name + " = \"...\"");
-}
-
-/// One cause that makes the critical gap of a case uncertain.
-struct CauseRow {
-  const NamedCase* of;
-  const study::CauseShare* share;
-  const study::CauseTraits& traits() const { return study::traits_of(share->cause); }
-};
-
-const Quantities<CauseRow> cause_quantities{
-    {quantity::case_name, &CauseRow::of, &NamedCase::label},
-    {"cause", "cause", text(), "What makes the critical gap uncertain.", &CauseRow::traits,
-     &study::CauseTraits::title},
-    {"class", "class", text(), "random: differs from launch to launch; bound: unknown, but fixed.",
-     [](const CauseRow& row) { return std::string(row.traits().random ? "random" : "bound"); }},
-    {"shorter", "shorter by", significant(2, centimetre),
-     "By how much the cause may shorten the critical gap.", &CauseRow::share, &study::CauseShare::shorter},
-    {"longer", "longer by", significant(2, centimetre),
-     "By how much the cause may lengthen the critical gap.", &CauseRow::share, &study::CauseShare::longer},
-    {for_programs(Column{"remedy", "remedy", text(), "What would make the share smaller."}),
-     &CauseRow::traits, &study::CauseTraits::remedy}};
 
 }  // namespace
 
@@ -72,7 +39,7 @@ Quantities<JudgedGap> verdict_quantities(const study::Study& study) {
       {for_programs(Column{"spread", "spread", fixed(1, kelvin),
                            "Hottest less coldest station at the muzzle exit, or at the end without one."}),
        &GapRow::spread},
-      {always({"margin", "margin", fixed(2, kelvin), "Ignition temperature less T max."}), &GapRow::margin},
+      {margin, &GapRow::margin},
       {always(uncertainty), &GapRow::uncertainty},
       {verdict, &GapRow::judgement, &Judgement::verdict}};
   const Quantities<GapRow> effects{
@@ -97,73 +64,93 @@ Quantities<JudgedGap> verdict_quantities(const study::Study& study) {
       {for_programs(skin_took), &GapRow::air, &AirEnergy::taken},
       {for_programs(compression_supplies), &GapRow::air, &AirEnergy::supplied},
       {for_programs(taken_over_supplied), &GapRow::air, &AirEnergy::ratio}};
+  const auto reason_of = [](const JudgedGap& row) { return study::reason_text(*row.of, *row.gap); };
   return keys::joined<JudgedGap>(
       {of_part<JudgedGap>(temperatures, &JudgedGap::gap),
-       {{reason, [](const JudgedGap& row) { return study::reason_text(*row.of, *row.gap); }}},
+       {{for_programs(reason), reason_of},
+        {for_people(reason), [=](const JudgedGap& row) { return rule_in(reason_of(row)); }}},
        of_part<JudgedGap>(effects, &JudgedGap::gap)});
-}
-
-Quantities<study::CriticalGap> critical_gap_quantities() {
-  return {{for_programs(quantity::critical_gap_kind), &study::CriticalGap::kind},
-          {for_programs(quantity::critical_gap), value_of},
-          {quantity::critical_gap_reads_as, reads_as}};
 }
 
 Quantities<study::CaseRow> case_quantities() {
   using study::CaseRow, study::GapBounds;
   const auto names = [](const std::vector<study::Remark>& remarks) { return study::names_text(remarks); };
-  return keys::joined<CaseRow>(
-      {of_part<CaseRow>(critical_gap_quantities(), &CaseRow::critical),
-       {{"critical_gap_at_least", "at least", significant(3, centimetre),
-         "Lower bound of the critical gap: gaps below it are SAFE.", &CaseRow::bounds, &GapBounds::at_least},
-        {"critical_gap_at_most", "at most", significant(3, centimetre), "Upper bound of the critical gap.",
-         &CaseRow::bounds, &GapBounds::at_most},
-        {for_programs(Column{"critical_gap_with_bounds", "critical gap with its bounds", text(),
-                             "The critical gap in the digits that its bounds justify."}),
-         measured_text},
-        {"basis", "basis", text(), "calibrated, or extrapolated outside an interval of the constants.",
-         &CaseRow::basis},
-        {"warnings", "warnings", text(), "Names of the validity warnings.", &CaseRow::warnings, names},
-        {"extrapolated", "extrapolated", text(), "Intervals of the constants that the case lies outside of.",
-         &CaseRow::extrapolated, names},
-        {"accepted", "accepted", text(), "Warnings and intervals that the study accepts, with its reasons.",
-         study::accepted_text},
-        {for_programs(Column{"incomplete", "incomplete", text(),
-                             "Launches beside the case's own that did not complete; it has no bounds."}),
-         &CaseRow::incomplete}}});
+  return {{for_programs(quantity::critical_gap_kind), &CaseRow::critical, &study::CriticalGap::kind},
+          {for_programs(quantity::critical_gap), &CaseRow::critical, value_of},
+          {quantity::critical_gap_reads_as, &CaseRow::critical, reads_as},
+          {quantity::lower_bound, &CaseRow::bounds, &GapBounds::at_least},
+          {quantity::upper_bound, &CaseRow::bounds, &GapBounds::at_most},
+          {"costliest_cause", "costs most", text(), "Cause that shortens the critical gap most.",
+           [](const CaseRow& row) {
+             const auto cause = study::costliest(row);
+             return cause ? study::traits_of(*cause).title : std::string();
+           }},
+          {for_programs(Column{"critical_gap_with_bounds", "critical gap with its bounds", text(),
+                               "The critical gap in the digits that its bounds justify."}),
+           measured_text},
+          {"basis", "basis", text(), "calibrated, or extrapolated outside an interval of the constants.",
+           &CaseRow::basis},
+          {"warnings", "warnings", text(), "Names of the validity warnings.", &CaseRow::warnings, names},
+          {"extrapolated", "extrapolated", text(),
+           "Intervals of the constants that the case lies outside of.", &CaseRow::extrapolated, names},
+          {"accepted", "accepted", text(), "Warnings and intervals that the study accepts, with its reasons.",
+           study::accepted_text},
+          {for_programs(Column{"incomplete", "incomplete", text(),
+                               "Launches beside the case's own that did not complete; it has no bounds."}),
+           &CaseRow::incomplete}};
 }
 
 std::vector<std::string> acceptances_to_write(const std::vector<study::CaseRow>& rows) {
   std::vector<std::string> lines;
-  add_lines(rows, &study::CaseRow::warnings, "[accept]", lines);
-  add_lines(rows, &study::CaseRow::extrapolated, "[accept.extrapolation]", lines);
+  for (const auto& [heading, remarks] : {std::pair{"[accept]", &study::CaseRow::warnings},
+                                         {"[accept.extrapolation]", &study::CaseRow::extrapolated}}) {
+    std::set<std::string> names;
+    for (const study::CaseRow& row : rows)
+      for (const study::Remark& each : row.*remarks)
+        if (each.is_open() && each.acceptable) names.insert(each.name);
+    if (!names.empty()) lines.emplace_back(heading);
+    for (const std::string& name : names) lines.push_back(name + " = \"...\"");
+  }
   return lines;
 }
 
 std::vector<std::string> verdict_notes(const study::StudyFile& study,
                                        const std::vector<study::CaseRow>& rows) {
-  Row facts;
+  std::vector<std::string> notes;
   if (study.study.kind.gives_verdicts) {
     const study::StatedNumerics& numerics = study.study.numerics;
-    if (numerics.is_stated()) facts["numerics"] = {{"K", numerics.error}, {"because", numerics.because}};
-    facts["no_models"] = study.study.models.empty();
-    facts["no_velocity"] = !study.scene.scene.load.expected_velocity;
-    if (const auto lines = acceptances_to_write(rows); !lines.empty())
-      facts["lines"] = fmt::format("\n\n    {}", fmt::join(lines, "\n    "));
+    if (numerics.is_stated())
+      notes.push_back(fmt::format("Stated by hand: numerics {} K, because {}.",
+                                  significant(numerics.error, 3), numerics.because));
+    if (study.study.models.empty()) notes.emplace_back("No other model was compared.");
+    if (!study.scene.scene.load.expected_velocity)
+      notes.emplace_back("Nothing checks the pressure that was typed: load.expected_velocity.");
   }
-  add_off_grid(study, facts);
-  return noted("verdicts", facts);
+  if (std::string note = off_grid_note(study); !note.empty()) notes.push_back(std::move(note));
+  if (const auto lines = acceptances_to_write(rows); study.study.kind.gives_verdicts && !lines.empty())
+    notes.push_back(
+        fmt::format("To judge the launch all the same, add to the study, with reasons in words:\n\n    {}",
+                    fmt::join(lines, "\n    ")));
+  return notes;
 }
 
 std::string station_note(const study::StudyFile& study) {
   const scene::Surface& surface = study.scene.scene.surface;
-  const auto millimetres = [](double length) {
-    return shown_value(length, keys::significant(4, millimetre));
-  };
-  return noted("stations", {{"stations", scene::stations_of(study.scene.scene).size()},
-                            {"depth_mm", millimetres(surface.station_depth)},
-                            {"width_mm", millimetres(surface.station_width)}})
-      .front();
+  return fmt::format(
+      "Temperatures are those of the hottest of {} stations that tile the charge's bottom, S1 at "
+      "the wall, each {} deep; station.width {}.",
+      scene::stations_of(study.scene.scene).size(),
+      in_words(surface.station_depth, significant(4, millimetre)),
+      in_words(surface.station_width, significant(4, millimetre)));
+}
+
+std::string rule_in(const std::string& reason) { return reason.substr(0, reason.find("; accepted: ")); }
+
+std::vector<Column> verdict_columns() {
+  std::vector<Column> columns = keys::described(verdict_quantities(study::Study{}));
+  std::erase_if(columns, [](const Column& column) { return column.name == "temperature_early"; });
+  columns.insert(columns.begin(), quantity::gap);
+  return columns;
 }
 
 double value_of(const study::CriticalGap& gap) {
@@ -181,39 +168,28 @@ std::string reads_as(const study::CriticalGap& gap) {
 
 std::string friction_remark(const study::StudyFile& study) {
   const scene::Scene& scene = study.scene.scene;
-  Row facts{{"closure", study::to_string(scene.surface.friction)},
-            {"localisation", scene.surface.localisation},
-            {"exchange_time_ms", shown_value(scene.surface.exchange_time, quantity::exchange_time.form)},
-            {"ignition_temperature_K", scene.charge().kinetics.ignition_temperature}};
+  std::string varied;
   for (const char* key : {"friction.localisation", "gap.exchange_time", "kinetics.ignition_temperature"})
-    if (varies(study.study, key)) facts["varied"].push_back(fmt::format("`{}`", key));
-  return fmt::format("{}\n", fmt::join(noted("friction", facts), "\n"));
-}
-
-std::optional<Measured> measured_gap(const study::CaseRow& of_case) {
-  if (of_case.critical.kind != study::CriticalGapKind::value) return std::nullopt;
-  return measured_gap(shown_gap(of_case.critical.value), shown_gap(of_case.bounds.at_least),
-                      shown_gap(of_case.bounds.at_most));
+    if (varies(study.study, key)) varied += fmt::format("The study varies `{}` around it.\n", key);
+  return fmt::format(
+      "Friction closure \"{}\" with a localisation of {}, exchange time {}, ignition temperature {}: these "
+      "are calibrated on published rows, as are the shape of the load and the choice of the model (see "
+      "`studies/calibrate_table8.toml`). The critical gap of the calibration's own load and defect is a fit, "
+      "not a prediction; it is computed for how it moves with pressure, defect, load shape and design. That "
+      "closed crack faces rub is no part of the published text (see `studies/defects.toml`).\n"
+      "{}The air is the published reservoir, which stays on its adiabat whatever the skin draws from it: "
+      "column taken_over_supplied has that over the heat that compression can supply.\n",
+      study::to_string(scene.surface.friction), significant(scene.surface.localisation, 6),
+      milliseconds(scene.surface.exchange_time),
+      in_words(scene.charge().kinetics.ignition_temperature, significant(6, kelvin)), varied);
 }
 
 std::string measured_text(const study::CaseRow& of_case) {
-  const auto known = measured_gap(of_case);
-  return known ? known->text(quantity::critical_gap.form.unit) : reads_as(of_case.critical);
-}
-
-Table cause_table(const std::vector<NamedCase>& cases) {
-  std::vector<CauseRow> rows;
-  for (const NamedCase& each : cases)
-    for (const study::CauseShare& share : each.row->causes) rows.push_back({&each, &share});
-  return table_of("What makes the critical gap uncertain", cause_quantities, rows, noted("causes"));
-}
-
-study::Use use_of(const std::shared_ptr<const scene::Constants>& constants, double gap, double published) {
-  const auto is_it = [&](const scene::FittedNumber& row) {
-    return row.is_fitted && std::abs(row.gap - gap) <= 1e-9 && study::same_number(row.published, published);
-  };
-  const bool is_fitted = constants != nullptr && std::ranges::any_of(constants->rows, is_it);
-  return is_fitted ? study::Use::fitted : study::Use::check;
+  std::string text;
+  if (of_case.critical.kind == study::CriticalGapKind::value)
+    text = between_bounds(shown_gap(of_case.critical.value), shown_gap(of_case.bounds.at_least),
+                          shown_gap(of_case.bounds.at_most), quantity::critical_gap.form.unit);
+  return text.empty() ? reads_as(of_case.critical) : text;
 }
 
 }  // namespace launchsafe::report

@@ -182,8 +182,8 @@ double SteppedSkin::heating(const TraceRecorder& recorder, std::size_t station, 
 
 BulkHeat::BulkHeat(mpm::Simulation& simulation) : charge_(simulation.scene().charge()) {
   const scene::Plan plan = scene::make_plan(simulation.scene());
-  reaction_ = plan.bulk_reaction.in;
-  if (plan.conduction.in) conduction_.emplace(simulation);
+  reaction_ = plan.reacts;
+  if (plan.conducts) conduction_.emplace(simulation);
   const bool is_read = reaction_ || conduction_ || simulation.scene().output.asks_for_snapshots();
   if (!is_read || simulation.scene().surface.friction == scene::FrictionClosure::none) return;
   for (Charge& body : simulation.bodies_of<materials::Charge>()) {

@@ -34,11 +34,10 @@ Cost cost_of(const scene::Scene& scene) {
 }
 
 SnapshotSize snapshot_size(const scene::Scene& scene) {
-  // Of a particle, besides its fields: its body, place and velocity as rows of three, stress tensor, and its
-  // cell with four corners.
-  constexpr double of_particle = 1 + 3 + 3 + 6 + 4 + 8;
-  // Of a station: its radius, two ends as rows of three, their numbers.
-  constexpr double of_station = 1 + 6 + 2;
+  // Of a particle, besides its fields: place and velocity, its cell with four corners, and as half numbers
+  // its body and the corners of its cell.
+  constexpr double of_particle = 2 + 2 + 8 + 0.5 * (1 + 4);
+  constexpr double of_station = 4;  // x and r of its ends
   const auto& output = scene.output;
   const auto gaps = static_cast<double>(scene.surface.gaps.size());
   const bool burns = scene.coupling == scene::Coupling::two_way;

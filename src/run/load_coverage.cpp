@@ -61,7 +61,7 @@ std::string is_over(const Load& load) {
         "over at {}: it is cut short",
         milliseconds(*load.duration), 100.0 * scene::share_left(load, *load.duration),
         milliseconds(scene::launch_end(load)));
-  if (load.curve_time.empty() || scene::exit_time(load)) return {};
+  if (load.curve_time.empty() || load.muzzle_exit) return {};
   const double last = load.curve_time.back(), share = scene::share_left(load, last);
   const double before = mean_of(PressureHistory(load), last, 1.0 - last_part, 1.0) /
                         std::max(PressureHistory(load).stated_peak(), 1e-300);

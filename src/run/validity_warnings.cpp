@@ -226,7 +226,7 @@ void check_bottom(const Scene& scene, const MechanicsResult&, Warnings& warnings
 }
 
 void check_charge(const Scene& scene, const MechanicsResult& mechanics, Warnings& warnings) {
-  if (scene::make_plan(scene).bulk_reaction.in) return;
+  if (scene::make_plan(scene).reacts) return;
   const double temperature = bulk_temperature(scene, mechanics.trace);
   const double ignition = scene.charge().kinetics.ignition_temperature;
   if (temperature < ignition) return;
@@ -318,7 +318,7 @@ std::vector<std::string> combustion_validity_warnings(const Scene& scene,
         factor));
   const std::vector<double>& measured = scene.load.curve_time;
   const double end = combustion.time.empty() ? 0.0 : combustion.time.back();
-  if (!measured.empty() && !scene::exit_time(scene.load) && end > measured.back())
+  if (!measured.empty() && !scene.load.muzzle_exit && end > measured.back())
     warnings.push_back(
         fmt::format("the measured load ends {:.3g} ms before the run, and its last pressure is held",
                     1e3 * (end - measured.back())));

@@ -45,7 +45,7 @@ bool is_acceptable(const std::string& name) {
 
 std::vector<Warning> launch_warnings(const scene::Scene& scene) {
   const scene::RigidMotion launch = scene::rigid_motion(scene, scene::read_time(scene.load));
-  const double calibres = scene::calibres_of(scene, launch);
+  const double calibres = launch.travel / (2.0 * scene::extent_of(scene).r_end);
   std::vector<Warning> warnings;
   if (!(launch.velocity >= least_velocity))
     warnings.push_back({"low-velocity", fmt::format("the projectile launches with {:.4g} m/s, less than {:g}",

@@ -29,19 +29,6 @@ Interface interface_at(const Constants& constants, const std::string& face, cons
   return faces;
 }
 
-/// The material of a law that a body names, and that is a table of its own; null where none does, or where
-/// another body is of the law's usual material, which the constants speak of.
-const NamedMaterial* named_material_of(const SceneFile& file, std::string_view law) {
-  if (contains(file.body_materials, law)) return nullptr;
-  for (const std::string& name : file.body_materials)
-    for (const auto* list : {&file.materials, &shipped_materials()})
-      if (const NamedMaterial* found = find_named(*list, name); found != nullptr && found->law == law)
-        return found;
-  return nullptr;
-}
-
-// --- the file ---
-
 /// Keys of the tables [set], by their names there: those of a scene, and of what holds the three faces.
 KeyDescription description_of(const std::string& name, const Place& place) {
   if (const Key<Scene>* key = find_key(scene_keys(), name)) return *key;
@@ -91,74 +78,20 @@ const std::vector<Key<Constants>>& header_keys() {
   return keys;
 }
 
-std::string text_at(const toml::table& table, const char* key, const std::string& file) {
-  const auto text = table[key].value<std::string>();
-  if (!text) throw error_at(place_of(table, file), key, "no text", "a text in quotation marks");
-  return *text;
+/// The keys of a table of the file; none where it has no such table.
+std::vector<Leaf> leaves_of(const toml::table& root, const char* name) {
+  const toml::table* table = root[name].as_table();
+  return table == nullptr ? std::vector<Leaf>{} : leaves_as_written(*table, {});
 }
 
-void read_values(const toml::table& root, const std::string& file, Constants& constants) {
-  const toml::table* set = root["set"].as_table();
-  if (set == nullptr) throw error_at(place_of(root, file), "set", "no table [set]", "the table of constants");
-  for (const Leaf& leaf : leaves_as_written(*set, {})) {
-    if (leaf.node->is_table()) continue;
-    const Place place = place_of(*leaf.node, file);
-    constants.values[leaf.name] = read_value(*leaf.node, description_of(leaf.name, place), file).or_throw();
-  }
-}
-
-void read_range(const toml::table& root, const std::string& file, Constants& constants) {
-  const toml::table* range = root["range"].as_table();
-  if (range == nullptr) return;
-  for (const Leaf& leaf : leaves_as_written(*range, {})) {
-    const Place place = place_of(*leaf.node, file);
-    const RangeKey* key = find_named(range_keys(), leaf.name);
-    if (key == nullptr) throw unknown_key(place, "range." + leaf.name, names_of(range_keys()));
-    const std::string interval = leaf.node->value_or(std::string{});
-    const bool is_valid = key->dimension == Dimension::share
-                              ? parse_quantity(interval, key->dimension).has_value()
-                              : parse_range(interval, key->dimension).has_value();
-    if (!is_valid)
-      throw error_at(place, "range." + leaf.name, in_quotes(interval),
-                     key->dimension == Dimension::share ? "a share, such as \"5 %\""
-                                                        : "an interval with its unit, lower end first");
-    constants.range[leaf.name] = interval;
-  }
-}
-
-void read_fitted_keys(const toml::table& root, const std::string& file, Constants& constants) {
-  const std::string names = text_at(root, "fitted", file);
-  for (const std::string_view name : parts_of_list(names))
-    if (!name.empty()) constants.fitted_keys.emplace_back(name);
-  const std::size_t count = constants.fitted_keys.size();
-  if (constants.covariance.size() != count * count)
-    throw error_at(place_of(root, file), "covariance", fmt::format("{} numbers", constants.covariance.size()),
-                   fmt::format("{} numbers, a square of the keys that were fitted", count * count));
-}
-
-Constants read_constants(const std::string& text, const std::string& file) {
-  const toml::table root = parse_toml(text, file).or_throw();
-  Constants constants;
-  constants.name = file;
-  read_table(root, header_keys(), {"set", "range", "row", "scene", "fitted"}, file, constants).or_throw();
-  if (constants.model_version != model_version)
-    throw error_at(place_of(root, file), "model_version", fmt::format("{}", constants.model_version),
-                   fmt::format("{}, that of this program; calibrate anew", model_version));
-  read_values(root, file, constants);
-  read_fitted_keys(root, file, constants);
-  const std::string allowed = "tables, each written [[row]]";
-  for (auto& [row, places] : read_tables(root, "row", row_keys(), file, allowed).or_throw())
-    constants.rows.push_back(std::move(row));
-  read_range(root, file, constants);
-  constants.scene = parse_scene(text_at(root, "scene", file), file).or_throw().scene;
-  return constants;
-}
-
-template <class Owner>
-std::string lines_of(const std::vector<Key<Owner>>& keys, const Owner& owner) {
-  std::string text;
-  for (const Key<Owner>& key : keys) text += key.name + " = " + exact_toml(key, key.get(owner)) + "\n";
-  return text;
+std::string read_interval(const Leaf& leaf, const std::string& file) {
+  const Place place = place_of(*leaf.node, file);
+  const RangeKey* key = find_named(range_keys(), leaf.name);
+  if (key == nullptr) throw unknown_key(place, "range." + leaf.name, names_of(range_keys()));
+  KeyDescription interval{"range." + leaf.name, KeyKind::range, key->dimension};
+  if (key->dimension == Dimension::share) interval.kind = KeyKind::number;
+  read_value(*leaf.node, interval, file);
+  return leaf.node->value_or(std::string{});
 }
 
 }  // namespace
@@ -167,7 +100,7 @@ const std::vector<std::shared_ptr<const Constants>>& shipped_constants() {
   static const auto all = []() noexcept {  // a fault is one of the program itself
     std::vector<std::shared_ptr<const Constants>> read;
     for (const auto& [file, text] : built_in_constants()) {
-      Constants constants = read_constants(text, "the shipped " + file);
+      Constants constants = parse_constants(text, "the shipped " + file);
       constants.name = std::filesystem::path(file).stem();
       const bool is_default = constants.name == default_constants;
       read.insert(is_default ? read.begin() : read.end(), std::make_shared<Constants>(std::move(constants)));
@@ -177,20 +110,42 @@ const std::vector<std::shared_ptr<const Constants>>& shipped_constants() {
   return all;
 }
 
-Expected<Constants> parse_constants(const std::string& text, const std::string& file) {
-  return caught([&] { return read_constants(text, file); });
+Constants parse_constants(const std::string& text, const std::string& file) {
+  const toml::table root = parse_toml(text, file);
+  Constants constants;
+  constants.name = file;
+  read_table(root, header_keys(), {"set", "range", "row", "scene", "fitted"}, file, constants);
+  if (constants.model_version != model_version)
+    throw error_at(place_of(root, file), "model_version", fmt::format("{}", constants.model_version),
+                   fmt::format("{}, that of this program; calibrate anew", model_version));
+  for (const Leaf& leaf : leaves_of(root, "set"))
+    if (!leaf.node->is_table())
+      constants.values[leaf.name] =
+          read_value(*leaf.node, description_of(leaf.name, place_of(*leaf.node, file)), file);
+  const std::string fitted = root["fitted"].value_or(std::string{});
+  for (const std::string_view name : parts_of_list(fitted))
+    if (!name.empty()) constants.fitted_keys.emplace_back(name);
+  const std::size_t count = constants.fitted_keys.size();
+  if (constants.covariance.size() != count * count)
+    throw error_at(place_of(root, file), "covariance", fmt::format("{} numbers", constants.covariance.size()),
+                   fmt::format("{} numbers, a square of the keys that were fitted", count * count));
+  for (auto& [row, places] : read_tables(root, "row", row_keys(), file, "tables, each written [[row]]"))
+    constants.rows.push_back(std::move(row));
+  for (const Leaf& leaf : leaves_of(root, "range")) constants.range[leaf.name] = read_interval(leaf, file);
+  constants.scene = parse_scene(root["scene"].value_or(std::string{}), file).scene;
+  return constants;
 }
 
 std::string to_toml(const Constants& constants) {
   std::string text = fmt::format("# Constants of a launch. Made by: {}\n\n", constants.command);
-  text += lines_of(header_keys(), constants);
+  text += lines_of("", header_keys(), constants);
   text += fmt::format("fitted = \"{}\"\n", fmt::join(constants.fitted_keys, ", "));
   text += fmt::format("scene = '''\n{}'''\n\n[set]\n", to_toml(constants.scene));
   for (const auto& [name, value] : constants.values)
     text += name + " = " + exact_toml(description_of(name, {}), value) + "\n";
   if (!constants.range.empty()) text += "\n[range]\n";
   for (const auto& [name, interval] : constants.range) text += fmt::format("{} = \"{}\"\n", name, interval);
-  for (const FittedNumber& row : constants.rows) text += "\n[[row]]\n" + lines_of(row_keys(), row);
+  for (const FittedNumber& row : constants.rows) text += "\n[[row]]\n" + lines_of("", row_keys(), row);
   return text;
 }
 
@@ -206,7 +161,7 @@ std::shared_ptr<const Constants> find_constants(const std::string& name, const s
   if (!name.ends_with(".toml"))
     throw error_at(place, key, in_quotes(name), allowed, in_quotes(nearest_of(name, names)));
   const std::filesystem::path path = named_file(folder, name, place, key, "a constants file");
-  Constants constants = read_constants(read_text_file(path).or_throw(), path.string());
+  Constants constants = parse_constants(read_text_file(path), path.string());
   constants.name = name;
   return std::make_shared<Constants>(std::move(constants));
 }
@@ -227,8 +182,7 @@ const Value* constant_of(const SceneFile& file, const std::string& key) {
   if (value == nullptr) return nullptr;
   if (key.starts_with("load.") && (file.given.contains("load.curve") || file.given.contains("load.shape")))
     return nullptr;
-  const bool is_of_steel = key.starts_with(std::string(Steel::name) + ".");
-  if (is_of_steel && named_material_of(file, Steel::name) != nullptr) return nullptr;
+  if (key.starts_with("steel.") && named_material_of(file, Steel::name) != nullptr) return nullptr;
   const NamedMaterial* charge = named_material_of(file, Charge::name);
   return charge != nullptr && charge->values.contains(key) ? nullptr : value;
 }

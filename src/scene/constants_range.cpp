@@ -25,7 +25,7 @@ double number_of(const std::string& name, const Scene& scene) {
 std::optional<OutsideOfRange> outside_of_interval(const RangeKey& key, const std::string& interval,
                                                   const Scene& scene) {
   const double number = number_of(key.name, scene);
-  const std::vector<double> ends = parse_range(interval, key.dimension).or_throw();
+  const std::vector<double> ends = parse_range(interval, key.dimension);
   const double slack = round_off * std::abs(number);
   if (number >= ends[0] - slack && number <= ends[1] + slack) return std::nullopt;
   return OutsideOfRange{key.name, format_quantity(number, key.dimension), interval, key.acceptable};
@@ -41,9 +41,8 @@ double difference_of(const Value& own, const Value& fitted) {
   const auto* numbers = std::get_if<std::vector<double>>(&own);
   if (numbers == nullptr) return own == fitted ? 0.0 : math::infinity;
   const auto& others = std::get<std::vector<double>>(fitted);
-  if (numbers->size() != others.size()) return math::infinity;
-  double largest = 0.0;
-  for (std::size_t i = 0; i < others.size(); ++i)
+  double largest = numbers->size() == others.size() ? 0.0 : math::infinity;
+  for (std::size_t i = 0; i < std::min(numbers->size(), others.size()); ++i)
     largest = std::max(largest, relative((*numbers)[i], others[i]));
   return largest;
 }
@@ -54,32 +53,30 @@ struct MaterialDifference {
   std::string text;  ///< "steel.yield_stress = 792 MPa"
 };
 
-/// `elsewhere`: keys that have intervals of their own.
 template <class Law>
-void compare_law(const Law& own, const Law& fitted, const std::vector<std::string_view>& elsewhere,
-                 MaterialDifference& most) {
+void compare_law(const Law& own, const Law& fitted, MaterialDifference& most) {
+  // They have intervals of their own.
+  static const std::vector<std::string_view> elsewhere{"charge.crack_radius", "charge.flaw_size"};
   for (const Key<Law>& key : Law::parameters()) {
-    const bool is_written = key.is_used(own);
-    if (contains(elsewhere, key.name) || (!is_written && !key.is_used(fitted))) continue;
-    double share =
-        is_written == key.is_used(fitted) ? difference_of(key.get(own), key.get(fitted)) : math::infinity;
+    if (contains(elsewhere, key.name) || (!key.is_used(own) && !key.is_used(fitted))) continue;
+    double share = difference_of(key.get(own), key.get(fitted));
     // A constant itself: a material that states another one is of no launch that was fitted.
-    if (key.name == "kinetics.ignition_temperature" && share > round_off) share = math::infinity;
+    const bool ignites = key.name == "kinetics.ignition_temperature" && share > round_off;
+    if (ignites || key.is_used(own) != key.is_used(fitted)) share = math::infinity;
     if (share > most.share) most = {share, key.name + " = " + format_value(key, key.get(own))};
   }
 }
 
 /// Of all bodies that are charges, or of all others.
 MaterialDifference compare_materials(const Constants& constants, const Scene& scene, bool of_charge) {
-  static const std::vector<std::string_view> elsewhere{"charge.crack_radius", "charge.flaw_size"};
   MaterialDifference most;
   for (const Body& body : scene.bodies) {
     if (is_charge(scene, body) != of_charge) continue;
     const materials::Law& law = law_of(scene, body);
-    if (const auto* steel = std::get_if<Steel>(&law); steel != nullptr && !of_charge)
-      compare_law(*steel, constants.scene.steel(), elsewhere, most);
-    else if (const auto* charge = std::get_if<Charge>(&law); charge != nullptr && of_charge)
-      compare_law(*charge, constants.scene.charge(), elsewhere, most);
+    if (const auto* steel = std::get_if<Steel>(&law))
+      compare_law(*steel, constants.scene.steel(), most);
+    else if (const auto* charge = std::get_if<Charge>(&law))
+      compare_law(*charge, constants.scene.charge(), most);
     else
       most = {math::infinity, "body " + body.name + " of another law"};
   }
@@ -89,8 +86,7 @@ MaterialDifference compare_materials(const Constants& constants, const Scene& sc
 std::optional<OutsideOfRange> outside_of_material(const RangeKey& key, const std::string& interval,
                                                   const Constants& constants, const Scene& scene) {
   const MaterialDifference most = compare_materials(constants, scene, key.name == "explosive");
-  if (most.share <= parse_quantity(interval, key.dimension).or_throw() * (1.0 + round_off))
-    return std::nullopt;
+  if (most.share <= parse_quantity(interval, key.dimension) * (1.0 + round_off)) return std::nullopt;
   return OutsideOfRange{key.name, most.text, "within " + interval, key.acceptable};
 }
 

@@ -1,3 +1,4 @@
+// From what a pressure gauge recorded to a curve that a scene takes.
 #include "launchsafe/scene/load.hpp"
 #include "launchsafe/scene/toml_reader.hpp"
 
@@ -7,16 +8,9 @@ namespace launchsafe::scene {
 namespace {
 
 constexpr std::size_t least_quiet_points = 10;
-// Shares of the peak.
-constexpr double rise_share = 0.02, trigger_share = 0.01, largest_share_below_zero = 0.05;
-/// What a gauge resolves.
-constexpr double resolution_share = 1e-3;
-
-double median(std::vector<double> values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
+/// Shares of the peak; the last one is what a gauge resolves.
+constexpr double rise_share = 0.02, trigger_share = 0.01, largest_share_below_zero = 0.05,
+                 resolution_share = 1e-3;
 
 /// The first point of the launch: after the last one before the peak that lies below the level.
 std::size_t last_passage(const std::vector<double>& pressure, double level) {
@@ -26,60 +20,41 @@ std::size_t last_passage(const std::vector<double>& pressure, double level) {
   return static_cast<std::size_t>(pressure.rend() - below);
 }
 
-/// Points that the rise has certainly not reached: the foot of the rise is not quiet, half of what is before
-/// it is left to that.
+/// Points that the rise has certainly not reached, in order of size: the foot of the rise is not quiet, and
+/// half of what is before it is left to that.
 std::vector<double> quiet_points(const std::vector<double>& pressure) {
   const auto peak = std::ranges::max_element(pressure);
   const double lowest = *std::min_element(pressure.begin(), peak + 1);
   const std::size_t rise = last_passage(pressure, lowest + rise_share * (*peak - lowest));
-  return {pressure.begin(), pressure.begin() + static_cast<std::ptrdiff_t>(rise / 2)};
-}
-
-/// Sets what is below zero to 0.
-void remove_negative(CleanedRecord& cleaned, const std::string& file) {
-  for (double& pressure : cleaned.curve.pressure) {
-    if (pressure >= 0.0) continue;
-    ++cleaned.points_below_zero;
-    cleaned.lowest = std::min(cleaned.lowest, pressure);
-    pressure = 0.0;
-  }
-  const double allowed = largest_share_below_zero * cleaned.peak;
-  if (cleaned.lowest >= -allowed) return;
-  throw error_at({file}, "pressure", pressure_text(-cleaned.lowest) + " below the offset",
-                 fmt::format("pressures no further below zero than {}: another offset, or a record without a "
-                             "drift of its gauge",
-                             pressure_text(allowed)));
+  std::vector<double> quiet(pressure.begin(), pressure.begin() + static_cast<std::ptrdiff_t>(rise / 2));
+  std::ranges::sort(quiet);
+  return quiet;
 }
 
 /// Offset of the record, from the user or from its quiet part.
 void find_offset(const PressureCurve& record, const GaugeCleaning& cleaning, CleanedRecord& cleaned,
                  const std::string& file) {
   const std::vector<double> quiet = quiet_points(record.pressure);
-  if (quiet.size() >= least_quiet_points) {
-    cleaned.quiet_points = quiet.size();
-    cleaned.offset = median(quiet);
-  } else if (!cleaning.offset) {
+  const bool is_quiet = quiet.size() >= least_quiet_points;
+  if (!is_quiet && !cleaning.offset)
     throw error_at(
         {file}, "pressure",
         fmt::format("{} points before the rise, from which no offset can be found", quiet.size()),
         fmt::format("a record with {} of them, or an offset: --offset \"0 MPa\"", 2 * least_quiet_points));
-  }
-  if (!cleaning.offset) return;
-  const double found = cleaned.offset;
-  cleaned.offset = *cleaning.offset;
-  if (cleaned.quiet_points == 0) return;
-  const double peak = *std::ranges::max_element(record.pressure) - found;
-  const double allowed = resolution_share * peak;
+  cleaned.quiet_points = is_quiet ? quiet.size() : 0;
+  const double found = is_quiet ? quiet[quiet.size() / 2] : *cleaning.offset;
+  cleaned.offset = cleaning.offset.value_or(found);
+  const double allowed = resolution_share * (*std::ranges::max_element(record.pressure) - found);
   if (std::abs(cleaned.offset - found) <= allowed) return;
   throw error_at({file}, "--offset",
                  fmt::format("an offset of {}, while the {} points before the rise show {}",
                              pressure_text(cleaned.offset), cleaned.quiet_points, pressure_text(found)),
-                 fmt::format("within {}, {:g} % of the peak, of that; or no offset, and that is taken",
-                             pressure_text(allowed), 100.0 * resolution_share));
+                 fmt::format("within {} of that, or no offset, and that is taken", pressure_text(allowed)));
 }
 
-CleanedRecord cleaned_record(const PressureCurve& record, const GaugeCleaning& cleaning,
-                             const std::string& file) {
+}  // namespace
+
+CleanedRecord clean(const PressureCurve& record, const GaugeCleaning& cleaning, const std::string& file) {
   CleanedRecord cleaned;
   find_offset(record, cleaning, cleaned, file);
   std::vector<double> pressure = record.pressure;
@@ -95,22 +70,21 @@ CleanedRecord cleaned_record(const PressureCurve& record, const GaugeCleaning& c
   cleaned.points_before = last_passage(pressure, cleaned.trigger);
   cleaned.start = record.time[cleaned.points_before];
   for (std::size_t i = cleaned.points_before; i < pressure.size(); ++i) {
+    cleaned.points_below_zero += pressure[i] < 0.0 ? 1 : 0;
+    cleaned.lowest = std::min(cleaned.lowest, pressure[i]);
     cleaned.curve.time.push_back(record.time[i] - cleaned.start);
-    cleaned.curve.pressure.push_back(pressure[i]);
+    cleaned.curve.pressure.push_back(std::max(0.0, pressure[i]));
   }
   if (cleaned.curve.time.size() < 2)
     throw error_at({file}, "pressure", "a record that ends where the launch begins",
                    "one of the whole launch");
-  remove_negative(cleaned, file);
+  if (const double allowed = largest_share_below_zero * cleaned.peak; cleaned.lowest < -allowed)
+    throw error_at({file}, "pressure", pressure_text(-cleaned.lowest) + " below the offset",
+                   fmt::format("pressures no further below zero than {}: another offset, or a record without "
+                               "a drift of its gauge",
+                               pressure_text(allowed)));
   cleaned.peak_time = record.time[static_cast<std::size_t>(peak - pressure.begin())] - cleaned.start;
   return cleaned;
-}
-
-}  // namespace
-
-Expected<CleanedRecord> clean(const PressureCurve& record, const GaugeCleaning& cleaning,
-                              const std::string& file) {
-  return caught([&] { return cleaned_record(record, cleaning, file); });
 }
 
 std::string csv_of(const PressureCurve& curve, const std::string& remarks) {

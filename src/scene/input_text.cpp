@@ -2,8 +2,6 @@
 // is wrong in them.
 #include "scene_file.hpp"
 
-#include <boost/locale/utf.hpp>
-
 #include <cerrno>
 #include <fstream>
 #include <set>
@@ -11,42 +9,6 @@
 
 namespace launchsafe::scene {
 namespace {
-
-/// Points of a key are nested tables: of scenes and studies one or two. A sentence has fewer than this.
-constexpr std::size_t most_points = 200;
-
-Place place_at(std::string_view text, std::size_t position, const std::string& file) {
-  const std::string_view before = text.substr(0, position);
-  const std::size_t line_begin = before.rfind('\n') + 1;  // 0 where there is none
-  return {file, 1 + static_cast<int>(std::count(before.begin(), before.end(), '\n')),
-          1 + static_cast<int>(position - line_begin)};
-}
-
-/// What a file is where another one is wanted, and what it is where it is wanted, as a material never is.
-std::pair<const char*, const char*> words_of(InputContent content) {
-  if (content == InputContent::study)
-    return {"a study, which launchsafe study computes", "a study: a file with the keys kind and scene"};
-  if (content == InputContent::material) return {"a material, which bodies of a scene name", ""};
-  return {"a scene, which launchsafe run computes", "a scene: a file with tables [[body]]"};
-}
-
-/// Longest word that is compared letter by letter with others.
-constexpr std::size_t longest_word = 200;
-
-bool continues_character(char byte) { return (static_cast<unsigned char>(byte) & 0xC0u) == 0x80u; }
-
-/// Control characters as escapes.
-std::string on_one_line(std::string_view text) {
-  std::string line;
-  for (const char each : text) {
-    const auto byte = static_cast<unsigned char>(each);
-    if (byte < 0x20 || byte == 0x7F)
-      line += byte == '\n' ? "\\n" : fmt::format("\\x{:02x}", byte);
-    else
-      line += each;
-  }
-  return line;
-}
 
 /// Edit distance that counts a swap of neighbours as one change (optimal string alignment).
 std::size_t letters_apart(std::string_view a, std::string_view b) {
@@ -106,63 +68,30 @@ std::string lower_case(std::string_view text) {
   return result;
 }
 
-void check_encoding(std::string_view text, const std::string& file) {
-  for (const char* at = text.data(); at != text.data() + text.size();) {
-    const char* const character = at;
-    // Neither overlong forms nor halves of UTF-16 pairs nor what is beyond U+10FFFF are characters (Unicode,
-    // table 3-7).
-    const auto code = boost::locale::utf::utf_traits<char>::decode(at, text.data() + text.size());
-    if (code != 0 && boost::locale::utf::is_valid_codepoint(code)) continue;
-    const std::string found = code == 0 ? "a NUL byte, as in UTF-16 or in a file that is no text"
-                                        : fmt::format("the byte 0x{:02X}, which is no UTF-8",
-                                                      static_cast<unsigned char>(*character));
-    throw error_at(place_at(text, static_cast<std::size_t>(character - text.data()), file), {}, found,
-                   "text in UTF-8");
-  }
-}
-
-void check_points(std::string_view toml, const std::string& file) {
-  std::size_t points = 0;  // since the last character that ends a key or a number of a list
-  for (std::size_t i = 0; i < toml.size(); ++i) {
-    if (contains(std::string_view("[{=,\n"), toml[i])) points = 0;
-    if (toml[i] != '.' || ++points < most_points) continue;
-    throw error_at(place_at(toml, i, file), {}, fmt::format("{} points without a comma", points),
-                   "a key of tables that are nested less deep, or shorter sentences");
-  }
-}
-
-Expected<std::string> read_regular_file(const std::filesystem::path& file, std::size_t largest) {
-  const Place place{file.string()};
+std::string read_text_file(const std::filesystem::path& file, std::size_t largest) {
+  const auto refuse = [&](const std::string& found, const std::string& allowed) {
+    throw error_at({file.string()}, {}, found, allowed);
+  };
   std::error_code failure;
   const std::filesystem::file_status status = std::filesystem::status(file, failure);
   if (status.type() == std::filesystem::file_type::not_found) {
-    InputError missing = error_at(place, {}, {}, {});
+    InputError missing = error_at({file.string()}, {}, {}, {}, nearest_file({}, file));
     missing.file_missing = true;
-    return missing;
+    throw missing;
   }
   // A pipe or a device may never end.
   if (!failure && !std::filesystem::is_regular_file(status))
-    return error_at(place, {}, std::filesystem::is_directory(status) ? "a folder" : "a pipe or a device",
-                    "a regular file");
+    refuse(std::filesystem::is_directory(status) ? "a folder" : "a pipe or a device", "a regular file");
   const std::uintmax_t size = failure ? 0 : std::filesystem::file_size(file, failure);
   if (size > largest)
-    return error_at(place, {}, fmt::format("a file of more than {} MiB", largest >> 20),
-                    fmt::format("a file of at most {} MiB", largest >> 20));
+    refuse(fmt::format("a file of more than {} MiB", largest >> 20),
+           fmt::format("a file of at most {} MiB", largest >> 20));
   std::string text(size, '\0');
   std::ifstream stream(file, std::ios::binary);
   if (failure || !stream.read(text.data(), static_cast<std::streamsize>(size)))
-    return error_at(place, {},
-                    fmt::format("a file that cannot be read ({})", std::generic_category().message(errno)),
-                    "a readable file");
+    refuse(fmt::format("a file that cannot be read ({})", std::generic_category().message(errno)),
+           "a readable file");
   return text;
-}
-
-Expected<std::string> read_text_file(const std::filesystem::path& file, std::size_t largest) {
-  auto text = read_regular_file(file, largest);
-  if (text || !text.error().file_missing) return text;
-  InputError error = text.error();
-  error.suggestion = nearest_file({}, file);
-  return error;
 }
 
 std::vector<std::string> list_folder(const std::filesystem::path& folder) {
@@ -183,12 +112,6 @@ std::filesystem::path named_file(const std::filesystem::path& folder, const std:
                  wanted + ", by its path from this file's folder", nearest_file(folder, name));
 }
 
-InputContent content_of(const std::filesystem::path& file) {
-  const auto text = read_text_file(file);
-  const auto table = text ? parse_toml(*text, file.string()) : InputError{};
-  return table ? content_of(*table) : InputContent::unknown;
-}
-
 InputContent content_of(const toml::table& root) {
   if (root.contains("law")) return InputContent::material;
   if (root.contains("body")) return InputContent::scene;
@@ -197,31 +120,46 @@ InputContent content_of(const toml::table& root) {
 
 void check_content(const toml::table& root, const std::string& file, InputContent wanted) {
   const InputContent content = content_of(root);
-  if (content != wanted && content != InputContent::unknown)
-    throw error_at({file}, {}, words_of(content).first, words_of(wanted).second);
+  if (content == wanted || content == InputContent::unknown) return;
+  constexpr std::array found{"a scene, which launchsafe run computes",
+                             "a study, which launchsafe study computes",
+                             "a material, which bodies of a scene name"};
+  throw error_at({file}, {}, found[static_cast<std::size_t>(content)],
+                 wanted == InputContent::scene ? "a scene: a file with tables [[body]]"
+                                               : "a study: a file with the keys kind and scene");
 }
 
 std::string quotable(std::string_view text, std::size_t longest) {
   constexpr std::string_view gap = " ...";
-  if (text.size() <= longest) return on_one_line(text);
-  std::size_t kept = longest > gap.size() ? longest - gap.size() : 0;
-  while (kept > 0 && continues_character(text[kept])) --kept;
-  return on_one_line(text.substr(0, kept)) + std::string(gap);
+  const bool is_long = text.size() > longest;
+  std::size_t kept = is_long ? longest - gap.size() : text.size();
+  // No character of UTF-8 is cut in two.
+  while (is_long && kept > 0 && (static_cast<unsigned char>(text[kept]) & 0xC0u) == 0x80u) --kept;
+  std::string line;
+  for (const char each : text.substr(0, kept)) {
+    const auto byte = static_cast<unsigned char>(each);
+    if (byte < 0x20 || byte == 0x7F)
+      line += byte == '\n' ? "\\n" : fmt::format("\\x{:02x}", byte);
+    else
+      line += each;
+  }
+  return is_long ? line + std::string(gap) : line;
 }
 
 std::string InputError::message() const {
-  std::string text = quotable(file, longest_file_quoted);
+  std::string text = file;
   if (line > 0) text += fmt::format(":{}", line);
   if (line > 0 && column > 0) text += fmt::format(":{}", column);
   if (!text.empty()) text += ": ";
-  if (!key.empty()) text += quotable(key, longest_quoted) + ": ";
-  text += file_missing ? "file not found" : "found " + quotable(found, longest_quoted);
-  if (!allowed.empty()) text += "; allowed: " + quotable(allowed, longest_allowed_quoted);
-  if (!suggestion.empty()) text += "; did you mean " + quotable(suggestion, longest_quoted) + "?";
+  if (!key.empty()) text += key + ": ";
+  text += file_missing ? "file not found" : "found " + found;
+  if (!allowed.empty()) text += "; allowed: " + allowed;
+  if (!suggestion.empty()) text += "; did you mean " + suggestion + "?";
   return text;
 }
 
 std::string nearest_of(std::string_view word, const std::vector<std::string>& candidates) {
+  constexpr std::size_t longest_word = 200;  // longer ones are near to none
   const std::string wanted = lower_case(word);
   std::set<std::string> nearest;
   std::size_t fewest = std::min<std::size_t>(2, word.size() / 3);

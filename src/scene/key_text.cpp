@@ -1,31 +1,21 @@
 // How keys and their values are written, for people and for programs.
-#include "launchsafe/scene/toml_reader.hpp"
+#include "scene_file.hpp"
 
-#include <array>
-#include <cmath>
 #include <sstream>
 
 namespace launchsafe::scene {
 namespace {
 
-/// "0 cm to 1 cm", "at least 0 K", ...; empty for any number.
+/// ", 0 cm to 1 cm", ", at least 0 K", ...; empty for any number.
 std::string limits_text(const Limits& limits, Dimension dimension) {
-  const auto shown = [&](double value) { return format_quantity(value, dimension); };
-  const bool low = std::isfinite(limits.lowest), high = std::isfinite(limits.highest);
-  if (low && high)
-    return fmt::format("{} {}to {}{}", shown(limits.lowest), limits.lowest_allowed ? "" : "(excluded) ",
-                       shown(limits.highest), limits.highest_allowed ? "" : " (excluded)");
-  if (low)
-    return fmt::format("{}{}", limits.lowest_allowed ? "at least " : "more than ", shown(limits.lowest));
-  if (high)
-    return fmt::format("{}{}", limits.highest_allowed ? "at most " : "less than ", shown(limits.highest));
+  const std::string low = format_quantity(limits.lowest, dimension);
+  const std::string high = format_quantity(limits.highest, dimension);
+  if (std::isfinite(limits.lowest) && std::isfinite(limits.highest))
+    return fmt::format(", {} {}to {}{}", low, limits.lowest_allowed ? "" : "(excluded) ", high,
+                       limits.highest_allowed ? "" : " (excluded)");
+  if (std::isfinite(limits.lowest)) return (limits.lowest_allowed ? ", at least " : ", more than ") + low;
+  if (std::isfinite(limits.highest)) return (limits.highest_allowed ? ", at most " : ", less than ") + high;
   return {};
-}
-
-/// Numbers in the first unit, as one text.
-std::string example_of_numbers(const KeyDescription& key, const char* numbers) {
-  const auto units = units_of(key.dimension);
-  return fmt::format("\"{}{}\"", numbers, units.empty() ? std::string{} : " " + units.front());
 }
 
 /// As toml++ writes it, which is in single quotes wherever nothing needs an escape.
@@ -50,53 +40,27 @@ std::string_view meaning_of(Standing standing) {
   return meanings[static_cast<std::size_t>(standing)];
 }
 
-std::string example_of(const KeyDescription& key) {
-  switch (key.kind) {
-    case KeyKind::flag:
-      return "true";
-    case KeyKind::word:
-    case KeyKind::words:
-      return fmt::format("\"{}\"", key.words.front());
-    case KeyKind::text:
-      return fmt::format("\"{}\"", key.example);
-    case KeyKind::list:
-      return example_of_numbers(key, "0, 1.5, 2");
-    case KeyKind::range:
-      return example_of_numbers(key, "0 to 2.5");
-    case KeyKind::number:
-      return std::string(example_of(key.dimension));
-  }
-  return {};
-}
-
 std::string allowed_text(const KeyDescription& key) {
-  const std::string_view name = name_of(key.dimension);
-  const std::string range = limits_text(key.limits, key.dimension);
-  const std::string limits = range.empty() ? range : ", " + range;
-  std::string units = fmt::format("{}", fmt::join(units_of(key.dimension), ", "));
-  if (!units.empty()) units = fmt::format(" (units: {})", units);
-  switch (key.kind) {
-    case KeyKind::flag:
-      return "true or false";
-    case KeyKind::word:
-      return quoted_list(key.words);
-    case KeyKind::words:
-      return "any of " + quoted_list(key.words) + ", with commas between";
-    case KeyKind::text:
-      return key.example.empty() ? "a text in quotation marks"
-                                 : "a text in quotation marks, such as " + example_of(key);
-    case KeyKind::number:
-      return fmt::format("a {}{}, such as {}{}", name, limits, example_of(key), units);
-    case KeyKind::range:
-      return fmt::format("a range, lower end first, of a {}{}, such as {}{}", name, limits, example_of(key),
-                         units);
-    case KeyKind::list:
-      return fmt::format(
-          "a list of {}, each a {}{}, such as {}{}",
-          key.list_length > 0 ? fmt::format("{} values", key.list_length) : "one or more values", name,
-          limits, example_of(key), units);
+  if (key.kind == KeyKind::flag) return "true or false";
+  if (key.kind == KeyKind::word) return quoted_list(key.words);
+  if (key.kind == KeyKind::words) return "any of " + quoted_list(key.words) + ", with commas between";
+  if (key.kind == KeyKind::text)
+    return "a text in quotation marks" + (key.example.empty() ? "" : ", such as \"" + key.example + '"');
+  const std::vector<std::string> units = units_of(key.dimension);
+  const std::string limits = limits_text(key.limits, key.dimension);
+  std::string kind = fmt::format("a {}{}", name_of(key.dimension), limits);
+  std::string example = example_of(key.dimension);
+  if (key.kind != KeyKind::number) {
+    const bool range = key.kind == KeyKind::range;
+    example = fmt::format("\"{}{}{}\"", range ? "0 to 2.5" : "0, 1.5, 2", units.empty() ? "" : " ",
+                          units.empty() ? "" : units.front());
+    const std::string values =
+        key.list_length > 0 ? fmt::format("{} values", key.list_length) : "one or more values";
+    kind =
+        range ? "a range, lower end first, of " + kind : fmt::format("a list of {}, each {}", values, kind);
   }
-  return {};
+  const std::string listed = units.empty() ? "" : fmt::format(" (units: {})", fmt::join(units, ", "));
+  return fmt::format("{}, such as {}{}", kind, example, listed);
 }
 
 std::string format_value(const KeyDescription& key, const Value& value) {

@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <cassert>
-#include <numeric>
 
 namespace launchsafe::scene {
 namespace {
@@ -104,50 +103,26 @@ std::pair<int, int> cells_beside_anchor(const Mesh& mesh, const Extent& shell) {
   return {cells(mesh.x_anchor - shell.x_begin), cells(shell.x_end - mesh.x_anchor)};
 }
 
-/// Number of a grid's cells between two of its lines, and the length of the shortest, m.
-std::pair<int, double> cells_between(const std::vector<double>& lines, double length) {
-  double shortest = length;
-  for (std::size_t i = 0; i + 1 < lines.size(); ++i) shortest = std::min(shortest, lines[i + 1] - lines[i]);
-  return {static_cast<int>(lines.size()) - 1, shortest};
-}
+bool is_lattice(const Scene& scene) { return scene.numerics.formulation == Formulation::total_lagrangian; }
 
-/// Those of a body, or of another part of the scene, by the lines of its grid; the even grid of the
-/// updated-Lagrangian form needs none.
+/// Cells of a part of the scene: a lattice has lines through its edges.
 template <class Part>
-CellRange cells_within(const Scene& scene, const GridLines& lines, const Part& part) {
-  if (scene.numerics.formulation == Formulation::updated_lagrangian) {
+CellRange cells_within(const Scene& scene, const Part& part) {
+  const double length = part.x_end - part.x_begin, width = part.r_end - part.r_begin;
+  if (!is_lattice(scene)) {
     const Mesh mesh = fit_mesh(scene);
-    const int nx = parts_of(part.x_end - part.x_begin, mesh.dx),
-              nr = parts_of(part.r_end - part.r_begin, mesh.dr);
-    return {nx, nr, mesh.dx, mesh.dr};
+    return {parts_of(length, mesh.dx), parts_of(width, mesh.dr), mesh.dx, mesh.dr};
   }
+  const GridLines lines = grid_lines(scene);
   const double tolerance = length_tolerance(scene);
-  const auto [nx, shortest_x] =
-      cells_between(cut(lines.x, part.x_begin, part.x_end, 1, tolerance), part.x_end - part.x_begin);
-  const auto [nr, shortest_r] =
-      cells_between(cut(lines.r, part.r_begin, part.r_end, 1, tolerance), part.r_end - part.r_begin);
-  return {nx, nr, shortest_x, shortest_r};
-}
-
-GridLines lines_of_lattice(const Scene& scene) {
-  return scene.numerics.formulation == Formulation::total_lagrangian ? grid_lines(scene) : GridLines{};
-}
-
-CellRange cells_of_all(const Scene& scene, const GridLines& lines) {
-  const Extent all = extent_of(scene);
-  if (scene.numerics.formulation == Formulation::total_lagrangian) return cells_within(scene, lines, all);
-  const Mesh mesh = fit_mesh(scene);
-  const auto [before, after] = cells_beside_anchor(mesh, all);
-  return {before + after, parts_of(mesh.radius, mesh.dr), mesh.dx, mesh.dr};
-}
-
-ParticleCount particles_in(const Scene& scene, const Body& body, const CellRange& cells) {
-  const int per_cell = scene.numerics.particles_per_cell;
-  if (scene.numerics.formulation == Formulation::total_lagrangian)
-    return {cells.nx * per_cell, cells.nr * per_cell};
-  const Mesh mesh = fit_mesh(scene);
-  return {parts_of((body.x_end - body.x_begin) * per_cell, mesh.dx),
-          parts_of((body.r_end - body.r_begin) * per_cell, mesh.dr)};
+  const auto x = cut(lines.x, part.x_begin, part.x_end, 1, tolerance),
+             r = cut(lines.r, part.r_begin, part.r_end, 1, tolerance);
+  const auto shortest = [](const std::vector<double>& edges, double all) {
+    for (std::size_t i = 0; i + 1 < edges.size(); ++i) all = std::min(all, edges[i + 1] - edges[i]);
+    return all;
+  };
+  return {static_cast<int>(x.size()) - 1, static_cast<int>(r.size()) - 1, shortest(x, length),
+          shortest(r, width)};
 }
 
 /// The bodies of the charge that reach its bottom.
@@ -195,7 +170,7 @@ GridLines grid_lines(const Scene& scene) {
 }
 
 GridLines lines_at_rest(const Scene& scene) {
-  if (scene.numerics.formulation == Formulation::total_lagrangian) return grid_lines(scene);
+  if (is_lattice(scene)) return grid_lines(scene);
   const Mesh mesh = fit_mesh(scene);
   const auto [before, after] = cells_beside_anchor(mesh, extent_of(scene));
   return {even(mesh.x_anchor - before * mesh.dx, mesh.x_anchor + after * mesh.dx, before + after),
@@ -203,37 +178,29 @@ GridLines lines_at_rest(const Scene& scene) {
 }
 
 GridLines particle_edges(const Scene& scene, const Body& body) {
-  const int per_cell = scene.numerics.particles_per_cell;
-  if (scene.numerics.formulation == Formulation::updated_lagrangian) {
+  if (!is_lattice(scene)) {
     const ParticleCount count = particles_of(scene, body);
     return {even(body.x_begin, body.x_end, count.nx), even(body.r_begin, body.r_end, count.nr)};
   }
+  const int per_cell = scene.numerics.particles_per_cell;
   const GridLines lines = grid_lines(scene);
   const double tolerance = length_tolerance(scene);
   return {cut(lines.x, body.x_begin, body.x_end, per_cell, tolerance),
           cut(lines.r, body.r_begin, body.r_end, per_cell, tolerance)};
 }
 
-CellRange cells_of(const Scene& scene) { return cells_of_all(scene, lines_of_lattice(scene)); }
+CellRange cells_of(const Scene& scene) {
+  if (is_lattice(scene)) return cells_within(scene, extent_of(scene));
+  const GridLines lines = lines_at_rest(scene);
+  const Mesh mesh = fit_mesh(scene);
+  return {static_cast<int>(lines.x.size()) - 1, static_cast<int>(lines.r.size()) - 1, mesh.dx, mesh.dr};
+}
 
 CellRange cells_of_charge(const Scene& scene) {
-  if (!has_charge(scene)) return cells_of(scene);
-  return cells_within(scene, lines_of_lattice(scene), charge_extent(scene));
+  return has_charge(scene) ? cells_within(scene, charge_extent(scene)) : cells_of(scene);
 }
 
-CellRange cells_of(const Scene& scene, const Body& body) {
-  return cells_within(scene, lines_of_lattice(scene), body);
-}
-
-MeshSize mesh_size(const Scene& scene) {
-  const GridLines lines = lines_of_lattice(scene);
-  MeshSize size{cells_of_all(scene, lines), {}, {}};
-  for (const Body& body : scene.bodies) {
-    size.cells.push_back(cells_within(scene, lines, body));
-    size.particles.push_back(particles_in(scene, body, size.cells.back()).total());
-  }
-  return size;
-}
+CellRange cells_of(const Scene& scene, const Body& body) { return cells_within(scene, body); }
 
 std::size_t nearest_line(const std::vector<double>& lines, double place) {
   auto nearest = std::ranges::lower_bound(lines, place);
@@ -265,7 +232,7 @@ Mesh fit_mesh(const Scene& scene) {
 }
 
 std::string charge_edges_off_grid(const Scene& scene) {
-  if (scene.numerics.formulation == Formulation::total_lagrangian) return {};
+  if (is_lattice(scene)) return {};
   const Mesh mesh = fit_mesh(scene);
   std::vector<std::string> edges;
   for (const Body& body : scene.bodies)
@@ -277,12 +244,20 @@ std::string charge_edges_off_grid(const Scene& scene) {
 }
 
 ParticleCount particles_of(const Scene& scene, const Body& body) {
-  return particles_in(scene, body, cells_of(scene, body));
+  const int per_cell = scene.numerics.particles_per_cell;
+  if (is_lattice(scene)) {
+    const CellRange cells = cells_of(scene, body);
+    return {cells.nx * per_cell, cells.nr * per_cell};
+  }
+  const Mesh mesh = fit_mesh(scene);
+  return {parts_of((body.x_end - body.x_begin) * per_cell, mesh.dx),
+          parts_of((body.r_end - body.r_begin) * per_cell, mesh.dr)};
 }
 
 std::int64_t particle_count(const Scene& scene) {
-  const std::vector<std::int64_t> particles = mesh_size(scene).particles;
-  return std::accumulate(particles.begin(), particles.end(), std::int64_t{0});
+  std::int64_t count = 0;
+  for (const Body& body : scene.bodies) count += particles_of(scene, body).total();
+  return count;
 }
 
 std::vector<StationExtent> stations_of(const Scene& scene) {

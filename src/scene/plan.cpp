@@ -19,18 +19,10 @@ constexpr double bytes_per_cell = 128.0;
 constexpr double pressure_margin = 2.0;
 
 /// What the user forced, or what the plan decides.
-Term switched(Switch user, bool needed, std::string reason, double value, double bound) {
-  const bool forced = user != Switch::automatic;
-  const bool in = forced ? user == Switch::on : needed;
-  if (forced) reason = (in ? "forced on; " : "forced off; ") + reason;
-  return {in, forced, std::move(reason), value, bound};
-}
-
-Term in(double value, std::string reason, double bound = 0.0) {
-  return {true, false, std::move(reason), value, bound};
-}
-Term out(double value, std::string reason, double bound = 0.0) {
-  return {false, false, std::move(reason), value, bound};
+Term switched(const char* title, const char* member, Switch user, bool needed, const std::string& reason) {
+  if (user == Switch::automatic) return {title, member, needed, false, reason};
+  const bool in = user == Switch::on;
+  return {title, member, in, true, (in ? "forced on; " : "forced off; ") + reason};
 }
 
 /// Verdicts rest on the charge's temperature; heat in the rest only softens it a little.
@@ -43,94 +35,66 @@ Material material_to_conduct(const Scene& scene) {
 }
 
 Term plan_conduction(const Scene& scene, const CellRange& cells) {
+  constexpr double bound = 0.05;  // diffusion length over cell size
   const Material material = material_to_conduct(scene);
   const double length = diffusion_length(material.law, end_time(scene.load));
-  const double cell = cells.shortest();
-  const double share = length / cell;
-  constexpr double bound = 0.05;  // diffusion length over cell size
+  const double share = length / cells.shortest();
   return switched(
-      scene.physics.conduction, share > bound,
+      "heat conduction", "conduction", scene.physics.conduction, share > bound,
       fmt::format("heat diffuses {} in the {} over the run, {:.3g} of a cell of {}; left out up to {:.3g}",
-                  length_text(length), material.name, share, length_text(cell), bound),
-      share, bound);
+                  length_text(length), material.name, share, length_text(cells.shortest()), bound));
 }
 
 Term plan_bulk_reaction(const Scene& scene) {
-  if (!has_charge(scene)) return out(0.0, "no charge");
+  constexpr double bound = 0.1;  // K of self-heating over the run
+  if (!has_charge(scene)) return {"bulk reaction", "bulk_reaction", false, false, "no charge"};
   const double temperature = bulk_temperature_bound(scene);
   const double heating =
       materials::arrhenius_heating(scene.charge().kinetics, scene.charge().specific_heat, temperature) *
       end_time(scene.load);
-  constexpr double bound = 0.1;  // K of self-heating over the run
   return switched(
-      scene.physics.bulk_reaction, heating > bound,
+      "bulk reaction", "bulk_reaction", scene.physics.bulk_reaction, heating > bound,
       fmt::format("the bulk of the charge stays below {:.4g} K, where the reaction heats it by {:.2g} K "
                   "over the run; left out up to {:.3g} K",
-                  temperature, heating, bound),
-      heating, bound);
+                  temperature, heating, bound));
 }
 
-Term plan_surface(const Scene& scene) {
-  const auto gaps = static_cast<double>(scene.surface.gaps.size());
-  if (!has_charge(scene)) return out(gaps, "no charge");
-  return in(gaps, fmt::format("{:.0f} gaps on one bottom trace", gaps));
-}
-
-Term plan_air(const Scene& scene) {
-  const std::vector<double>& all = scene.surface.gaps;
-  const double largest = all.empty() ? 0.0 : std::ranges::max(all);
-  if (!has_charge(scene)) return out(largest, "no charge");
-  if (!(largest > 0.0)) return out(largest, "no gap above 0 cm");
-  const std::string gaps = fmt::format("gaps up to {}", length_text(largest));
-  return in(largest, gaps);
-}
-
-Term plan_cracks(const Scene& scene) {
-  const materials::ViscoScramParameters& strength = scene.charge().strength;
-  if (!has_charge(scene)) return out(0.0, "no charge");
-  if (!(strength.flaw_size > 0.0)) return out(0.0, "charge.flaw_size is 0");
-  const double ratio = strength.initial_crack_radius / strength.flaw_size;
-  if (!(ratio > 0.0)) return out(0.0, "charge.crack_radius is 0");
-  return in(ratio, fmt::format("crack radius {} at flaw size {}", length_text(strength.initial_crack_radius),
-                               length_text(strength.flaw_size)));
-}
-
-Term plan_crack_growth(const Scene& scene, const Term& cracks) {
-  const double speed = scene.charge().strength.largest_growth_speed;
-  if (!cracks.in) return out(speed, "no cracks");
-  if (!scene.charge().strength.growth) return out(speed, "charge.crack_growth is false");
-  return in(speed, fmt::format("up to {:.4g} m/s", speed));
-}
-
-Term plan_crack_friction(const Scene& scene, const Term& growth) {
-  const double friction = scene.charge().strength.face_friction;
-  if (!growth.in) return out(friction, "no crack growth that it could hold back");
-  if (!(friction > 0.0)) return out(friction, "charge.face_friction is 0");
-  return in(friction, fmt::format("coefficient {:.3g} of closed crack faces", friction));
-}
-
-Term plan_friction_heat(const Scene& scene) {
+/// What a charge alone has.
+std::vector<Term> terms_of_charge(const Scene& scene) {
   const Surface& surface = scene.surface;
-  if (!has_charge(scene)) return out(0.0, "no charge");
-  if (surface.friction == FrictionClosure::none) return out(0.0, "friction.closure is none");
-  const double factor = scene.charge().sliding_friction * surface.localisation;
-  if (!(factor > 0.0)) return out(factor, "sliding_friction or localisation is 0");
-  return in(surface.localisation, fmt::format("closure \"{}\", localisation {:.6g}",
-                                              word_of(surface.friction), surface.localisation));
+  const auto& strength = scene.charge().strength;
+  const double largest = surface.gaps.empty() ? 0.0 : std::ranges::max(surface.gaps);
+  const double friction = scene.charge().sliding_friction;
+  const bool heats = surface.friction != FrictionClosure::none && friction * surface.localisation > 0.0;
+  const bool cracks = strength.flaw_size > 0.0 && strength.initial_crack_radius > 0.0;
+  const bool growth = cracks && strength.growth;
+  std::vector<Term> terms{
+      {"skin of the bottom", "surface", true, false,
+       fmt::format("{} gaps on one bottom trace", surface.gaps.size())},
+      {"air in the gap", "air", largest > 0.0, false, "gaps up to " + length_text(largest)},
+      {"friction heat", "friction_heat", heats, false,
+       fmt::format("closure \"{}\", localisation {:.6g}, sliding friction {:.3g}", word_of(surface.friction),
+                   surface.localisation, friction)},
+      {"cracks", "cracks", cracks, false,
+       fmt::format("crack radius {} at flaw size {}", length_text(strength.initial_crack_radius),
+                   length_text(strength.flaw_size))},
+      {"crack growth", "crack_growth", growth, false,
+       fmt::format("charge.crack_growth {}, up to {:.4g} m/s", strength.growth,
+                   strength.largest_growth_speed)},
+      {"crack friction", "crack_friction", growth && strength.face_friction > 0.0, false,
+       fmt::format("coefficient {:.3g} of closed crack faces that grow", strength.face_friction)}};
+  if (!has_charge(scene))
+    for (Term& term : terms) term = {term.title, term.member, false, false, "no charge"};
+  return terms;
 }
 
 Term plan_inertial_scaling(const Scene& scene) {
   const double scaling = scene.numerics.inertial_scaling, selective = scene.numerics.selective_inertia;
-  const double factor = scaling * selective * selective;
-  if (!(factor > 1.0)) return out(factor, "full inertia", 1.0);
-  std::string reason;
-  if (scaling > 1.0)
-    reason = fmt::format("inertia times {:.4g}, steps {:.3g} times longer", scaling, std::sqrt(scaling));
-  if (selective > 1.0)
-    reason +=
-        fmt::format("{}steps {:.3g} times longer, with up to {:.4g} times the inertia in cells that need it",
-                    reason.empty() ? "" : "; ", selective, selective * selective);
-  return in(factor, std::move(reason), 1.0);
+  return {
+      "inertial scaling", "inertial_scaling", scaling * selective * selective > 1.0, false,
+      fmt::format("inertia times {:.4g}; steps {:.3g} times longer, with up to {:.4g} times the inertia in "
+                  "cells that need it",
+                  scaling, std::sqrt(scaling) * selective, selective * selective)};
 }
 
 /// Work of the run of a gap from the start, with its skin, over that of the launch.
@@ -141,58 +105,50 @@ double coupled_share(const Scene& scene) {
 }
 
 Term plan_coupling(const Scene& scene) {
-  const double duration = scene.combustion.duration;
-  if (!has_charge(scene)) return out(duration, "no charge");
-  if (scene.coupling == Coupling::one_way)
-    return out(duration, "one-way: runs end with the launch, and what ignites does not burn");
-  return in(duration,
-            fmt::format("two-way: every gap that ignites is computed once more, and on through combustion "
-                        "for {} or to {} at the bottom",
-                        time_text(duration), pressure_text(scene.combustion.stop_pressure)));
+  const Combustion& combustion = scene.combustion;
+  const bool couples = has_charge(scene) && scene.coupling == Coupling::two_way;
+  return {"coupling", "coupling", couples, false,
+          !couples ? "one-way: runs end with the launch, and what ignites does not burn"
+                   : fmt::format("two-way: every gap that ignites is computed once more, and on through "
+                                 "combustion for {} or to {} at the bottom",
+                                 time_text(combustion.duration), pressure_text(combustion.stop_pressure))};
 }
 
 Term plan_snapshots(const Scene& scene) {
-  const std::size_t times = scene.output.snapshot_times.size(), events = scene.output.snapshot_events.size();
-  const auto count = static_cast<double>(times + events);
-  if (!scene.output.asks_for_snapshots()) return out(count, "none asked for");
-  return in(count, fmt::format("{} times, {} events", times, events));
+  const Output& output = scene.output;
+  return {"snapshots", "snapshots", output.asks_for_snapshots(), false,
+          fmt::format("{} times, {} events", output.snapshot_times.size(), output.snapshot_events.size())};
 }
 
 /// At rest: CFL times the shortest time in which sound crosses a cell, with the inertial factors.
-double time_step_at_rest(const Scene& scene, const MeshSize& mesh) {
+double time_step_at_rest(const Scene& scene, const CellRange& mesh) {
   const Numerics& numerics = scene.numerics;
   if (numerics.formulation == Formulation::updated_lagrangian)
-    return numerics.time_step_factor * mesh.all.shortest() / longitudinal_speed(scene) *
+    return numerics.time_step_factor * mesh.shortest() / longitudinal_speed(scene) *
            std::sqrt(numerics.inertial_scaling);
   double shortest = std::numeric_limits<double>::infinity();
-  for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
-    const Body& body = scene.bodies[i];
-    shortest = std::min(shortest, mesh.cells[i].shortest() / longitudinal_speed(law_of(scene, body)));
-  }
+  for (const Body& body : scene.bodies)
+    shortest = std::min(shortest, cells_of(scene, body).shortest() / longitudinal_speed(law_of(scene, body)));
   return numerics.time_step_factor * numerics.selective_inertia * std::sqrt(numerics.inertial_scaling) *
          shortest;
 }
 
-void count_particles(const Scene& scene, const MeshSize& mesh, Plan& plan) {
+void count_work(const Scene& scene, const CellRange& mesh, Plan& plan) {
   for (const Material& material : used_materials(scene)) {
     MaterialParticles& count = plan.by_material.emplace_back(MaterialParticles{material.name});
-    for (std::size_t i = 0; i < scene.bodies.size(); ++i)
-      if (scene.bodies[i].material == material.name) count.particles += mesh.particles[i];
+    for (const Body& body : scene.bodies)
+      if (body.material == material.name) count.particles += particles_of(scene, body).total();
     const double bytes =
         bytes_per_number * (numbers_per_particle + static_cast<double>(state_size(material.law))) +
-        (plan.conduction.in ? bytes_of_conduction : 0.0);
+        (plan.conducts ? bytes_of_conduction : 0.0);
     plan.memory += bytes * static_cast<double>(count.particles);
   }
-}
-
-void count_work(const Scene& scene, const MeshSize& mesh, Plan& plan) {
-  count_particles(scene, mesh, plan);
-  plan.cells = static_cast<std::int64_t>(mesh.all.nx) * mesh.all.nr;
+  plan.cells = static_cast<std::int64_t>(mesh.nx) * mesh.nr;
   plan.time_step = time_step_at_rest(scene, mesh);
   const double steps = std::ceil(end_time(scene.load) / plan.time_step - 1e-9);
   plan.steps = counted(steps);
   plan.work = steps * static_cast<double>(plan.particles());
-  if (plan.coupling.in) plan.coupled_work = coupled_share(scene) * plan.work;
+  if (plan.couples) plan.coupled_work = coupled_share(scene) * plan.work;
   plan.memory += bytes_per_cell * static_cast<double>(plan.cells);
 }
 
@@ -273,24 +229,21 @@ double bulk_temperature_bound(const Scene& scene) {
 }
 
 Plan make_plan(const Scene& scene) {
-  const MeshSize mesh = mesh_size(scene);
+  const CellRange mesh = cells_of(scene);
   Plan plan;
-  plan.conduction = plan_conduction(scene, mesh.all);
-  plan.bulk_reaction = plan_bulk_reaction(scene);
-  plan.air = plan_air(scene);
-  plan.cracks = plan_cracks(scene);
-  plan.crack_growth = plan_crack_growth(scene, plan.cracks);
-  plan.crack_friction = plan_crack_friction(scene, plan.crack_growth);
-  plan.surface = plan_surface(scene);
-  plan.friction_heat = plan_friction_heat(scene);
-  plan.inertial_scaling = plan_inertial_scaling(scene);
-  plan.coupling = plan_coupling(scene);
-  plan.snapshots = plan_snapshots(scene);
+  plan.terms = terms_of_charge(scene);
+  for (const Term& term : {plan_conduction(scene, mesh), plan_bulk_reaction(scene),
+                           plan_inertial_scaling(scene), plan_coupling(scene), plan_snapshots(scene)})
+    plan.terms.push_back(term);
+  const auto is_in = [&](std::string_view member) {
+    return std::ranges::find(plan.terms, member, &Term::member)->in;
+  };
+  plan.conducts = is_in("conduction");
+  plan.reacts = is_in("bulk_reaction");
+  plan.couples = is_in("coupling");
   count_work(scene, mesh, plan);
   return plan;
 }
-
-double predicted_time(const Plan& plan, double update_rate) { return plan.work / update_rate; }
 
 LargestChanges largest_changes(const Load& load, double window) {
   constexpr std::size_t parts = 8;  // of the window
@@ -343,7 +296,7 @@ double usual_selective_inertia(const Scene& scene) {
 }
 
 Scene mechanical_part(const Scene& scene) {
-  const Plan plan = make_plan(scene);
+  const bool conducts = plan_conduction(scene, cells_of(scene)).in, reacts = plan_bulk_reaction(scene).in;
   Scene part = scene;
   // Of a gap, and of what follows its ignition, the mechanics knows nothing.
   std::erase_if(part.output.snapshot_times, [&](double time) {
@@ -352,15 +305,12 @@ Scene mechanical_part(const Scene& scene) {
   std::erase(part.output.snapshot_events, Event::ignition);
   clear_remarks(part);
   part.interfaces = sliding_interfaces(scene);
-  // The mechanics knows the time of the exit, however it was stated.
-  part.load.muzzle_exit = exit_time(scene.load);
-  part.load.muzzle_travel.reset();
-  const Felt felt{plan.conduction.in, plan.bulk_reaction.in, part.output.asks_for_snapshots()};
+  const Felt felt{conducts, reacts, part.output.asks_for_snapshots()};
   felt.keep_alone(scene_keys(), part);
   settle_materials(part, felt);
   // The plan's decisions instead of what they rest on.
-  part.physics = {.conduction = plan.conduction.in ? Switch::on : Switch::off,
-                  .bulk_reaction = plan.bulk_reaction.in ? Switch::on : Switch::off};
+  part.physics = {.conduction = conducts ? Switch::on : Switch::off,
+                  .bulk_reaction = reacts ? Switch::on : Switch::off};
   std::ranges::sort(part.output.snapshot_times);
   return part;
 }

@@ -5,18 +5,10 @@
 
 #include <boost/math/quadrature/tanh_sinh.hpp>
 #include <boost/math/tools/minima.hpp>
-#include <boost/math/tools/roots.hpp>
 
-#include <cassert>
 #include <complex>
 
 namespace launchsafe::scene {
-
-/// The largest pressure (Pa), when it is (s), and the mark up to which it was looked for beside the largest
-/// mark; infinite where that is the last.
-struct LargestPressure {
-  double time = 0.0, pressure = 0.0, next_mark = std::numeric_limits<double>::infinity();
-};
 
 namespace {
 
@@ -44,15 +36,8 @@ class Interpolant {
 
   /// Index of the point at or before a time between the first point and the last.
   std::size_t interval_of(double t) const {
-    // Gauges sample at equal intervals, so that the guess is right but for round-off.
-    const double intervals = static_cast<double>(time_.size() - 1);
-    const double guess = (t - time_.front()) / (time_.back() - time_.front()) * intervals;
-    auto i = static_cast<std::size_t>(std::clamp(guess, 0.0, intervals - 1.0));
-    if (t < time_[i] && i > 0) --i;
-    if (t >= time_[i + 1] && i + 2 < time_.size()) ++i;
-    if (t >= time_[i] && t < time_[i + 1]) return i;
-    return static_cast<std::size_t>(std::upper_bound(time_.begin() + 1, time_.end() - 1, t) - time_.begin()) -
-           1;
+    const auto next = std::upper_bound(time_.begin() + 1, time_.end() - 1, t);
+    return static_cast<std::size_t>(next - time_.begin()) - 1;
   }
 
   double operator()(double t) const { return at(interval_of(t), t); }
@@ -84,8 +69,6 @@ class MovingAverage {
  public:
   MovingAverage(Interpolant curve, double window) : curve_(std::move(curve)), window_(window), impulse_{0.0} {
     const std::vector<double>& time = curve_.time();
-    assert(window >= least_smoothing_share * (time.back() - time.front()));
-    assert(window <= time.back() - time.front());
     for (std::size_t i = 0; i + 1 < time.size(); ++i)
       impulse_.push_back(impulse_[i] + curve_.integral(i, time[i + 1]));
   }
@@ -115,15 +98,17 @@ class MovingAverage {
   std::vector<double> impulse_;  ///< Pa s, from the first point to each
 };
 
+constexpr double same_time = 1e-9;  // share, the round-off of times that were written in decimals
+
 /// Times from `begin` to `end` (s) between which a load has at most one maximum, about, and is smooth: the
 /// peak of an analytic shape, or the points of a curve, and where one enters or leaves the window of its
 /// average; and the exit.
-std::vector<double> marks_between(const Load& load, double begin, double end, double exit) {
+std::vector<double> marks_of(const Load& load, double begin, double end, std::optional<double> exit) {
   std::vector<double> marks{begin, end};
   const auto add = [&](double time) {
     if (time > begin && time < end) marks.push_back(time);
   };
-  add(exit);
+  if (exit) add(*exit);
   if (load.curve_time.empty()) add(load.peak_time);
   std::ranges::sort(marks);
   std::vector<double> shifts{0.0};
@@ -136,25 +121,20 @@ std::vector<double> marks_between(const Load& load, double begin, double end, do
   return marks;
 }
 
-constexpr double never = std::numeric_limits<double>::infinity();
-
-/// Largest value at the marks and, where an average may be larger between them, beside the largest mark.
-LargestPressure largest_at(const std::vector<double>& marks, const std::function<double(double)>& pressure,
-                           bool smoothed) {
+/// The time of the largest value at the marks and, where an average may be larger between them, beside the
+/// largest mark; and that value.
+std::pair<double, double> largest_at(const std::vector<double>& marks,
+                                     const std::function<double(double)>& pressure, bool smoothed) {
   std::vector<double> values;
   for (const double mark : marks) values.push_back(pressure(mark));
   const auto best = static_cast<std::size_t>(std::ranges::max_element(values) - values.begin());
-  LargestPressure largest{marks[best], values[best], best + 1 < marks.size() ? marks[best + 1] : never};
-  if (!smoothed || marks.size() < 2) return largest;
+  if (!smoothed || marks.size() < 2) return {marks[best], values[best]};
   const double begin = marks[best > 0 ? best - 1 : 0], end = marks[std::min(best + 1, marks.size() - 1)];
   constexpr int digits = std::numeric_limits<double>::digits / 2;
   const auto below =
       boost::math::tools::brent_find_minima([&](double t) { return -pressure(t); }, begin, end, digits);
-  if (-below.second > values[best]) {
-    largest.time = below.first;
-    largest.pressure = -below.second;
-  }
-  return largest;
+  if (-below.second > values[best]) return {below.first, -below.second};
+  return {marks[best], values[best]};
 }
 
 /// Of the analytic shapes: the pressure over the base as a share of that at the peak.
@@ -165,9 +145,6 @@ double share_of_peak(const Load& load, double time) {
   const double ratio = time / load.peak_time;
   return std::exp(load.exponent * (std::log(ratio) + 1.0 - ratio));
 }
-
-/// Round-off of times that were written in decimals.
-constexpr double same_time = 1e-9;
 
 /// From where x - ln x = 1 + ln(1/share)/n on, ((t/t_m) exp(1 - t/t_m))^n with x = t/t_m stays below the
 /// share. The root is approached from above, where Newton's method on a convex function cannot miss it.
@@ -188,58 +165,46 @@ double end_in_the_barrel(const Load& load) {
 
 }  // namespace
 
-/// A load in a barrel without end. Of a measured curve, which may have a million points, it is built once.
-struct LoadInBarrel {
-  explicit LoadInBarrel(const Load& stated) : load(without_exit(stated)) {
-    load.duration.reset();
-    load.in_barrel.reset();
-    if (!load.curve_pressure.empty()) highest = std::ranges::max(load.curve_pressure);
-    if (load.curve_time.size() < 2) return;
+PressureHistory::PressureHistory(const Load& load) : load_(load) {
+  if (load.curve_time.size() > 1) {
     Interpolant through_points(load.curve_time, load.curve_pressure);
-    const bool smoothed = load.smoothing > 0.0;
-    if (smoothed)
-      curve = MovingAverage(std::move(through_points), load.smoothing);
+    if (load.smoothing > 0.0)
+      curve_ = MovingAverage(std::move(through_points), load.smoothing);
     else
-      curve = std::move(through_points);
-    if (!load.rescale_to_peak) return;
-    const auto marks = marks_between(load, load.curve_time.front(), load.curve_time.back(), never);
-    const double largest_point = largest_at(marks, curve, smoothed).pressure;
-    if (largest_point > 0.0) scale = load.peak / largest_point;
+      curve_ = std::move(through_points);
   }
-
-  /// Whether the curve is that of a load.
-  bool is_of(const Load& other) const {
-    return load.smoothing == other.smoothing && load.rescale_to_peak == other.rescale_to_peak &&
-           (!load.rescale_to_peak || load.peak == other.peak) && load.curve_time == other.curve_time &&
-           load.curve_pressure == other.curve_pressure;
+  if (curve_ && load.rescale_to_peak) {
+    const auto marks = marks_of(load, load.curve_time.front(), load.curve_time.back(), {});
+    const double largest_point = largest_at(marks, curve_, load.smoothing > 0.0).second;
+    if (largest_point > 0.0) scale_ = load.peak / largest_point;
   }
+  if (!load.muzzle_exit) return;
+  exit_pressure_ = in_barrel(*load.muzzle_exit);
+  pressure_outside_ = is_measured() ? 0.0 : load.base;
+}
 
-  double at(double time) const {
-    if (load.curve_time.empty()) return load.base + (load.peak - load.base) * share_of_peak(load, time);
-    if (!curve) return scale * load.curve_pressure.front();
-    const double first = load.curve_time.front(), last = load.curve_time.back();
-    // An interpolant's round-off at its ends is that of the average; without one the points are met exactly.
-    if (load.smoothing > 0.0) return scale * curve(std::clamp(time, first, last));
-    if (time <= first) return scale * load.curve_pressure.front();
-    if (time >= last) return scale * load.curve_pressure.back();
-    return scale * curve(time);
-  }
+double PressureHistory::in_barrel(double time) const {
+  if (!is_measured()) return load_.base + (load_.peak - load_.base) * share_of_peak(load_, time);
+  if (!curve_) return scale_ * load_.curve_pressure.front();
+  const double first = load_.curve_time.front(), last = load_.curve_time.back();
+  // An interpolant's round-off at its ends is that of the average; without one the points are met exactly.
+  if (load_.smoothing > 0.0) return scale_ * curve_(std::clamp(time, first, last));
+  if (time <= first) return scale_ * load_.curve_pressure.front();
+  if (time >= last) return scale_ * load_.curve_pressure.back();
+  return scale_ * curve_(time);
+}
 
-  Load load;                            ///< without exit and duration
-  std::function<double(double)> curve;  ///< between the first and the last point; empty for an analytic shape
-  double scale = 1.0;
-  double highest = 0.0;  ///< Pa, of the points
-  // Of a load that is built before it is used; else empty.
-  std::vector<RigidMotion> driven;         ///< of 1 kg/m2, at every mark from 0 on
-  std::optional<LargestPressure> largest;  ///< over these
-};
+double PressureHistory::at(double time) const {
+  if (!(time > exit())) return in_barrel(time);
+  return pressure_outside_ +
+         (exit_pressure_ - pressure_outside_) * std::exp(-(time - exit()) / load_.exit_decay);
+}
 
-namespace {
+std::vector<double> PressureHistory::marks() const {
+  return marks_of(load_, 0.0, load_.duration.value_or(launch_end()), load_.muzzle_exit);
+}
 
-/// Moves a body of 1 kg/m2 on from mark to mark under a pressure, until its travel is `goal`.
-RigidMotion driven_on(RigidMotion motion, const std::vector<double>& marks, bool measured,
-                      const std::function<double(double)>& pressure, std::optional<double> goal,
-                      std::vector<RigidMotion>* passed = nullptr) {
+RigidMotion PressureHistory::drive(double until) const {
   // Where an analytic shape has no derivative, or rises within a small share of the launch, is at the ends of
   // the parts, where this rule has most of its nodes: some 60 a part, and 1e-8 of the integral for
   // steepnesses from 0.3 to 100 and exponents from 0.1 to 1000.
@@ -255,128 +220,47 @@ RigidMotion driven_on(RigidMotion motion, const std::vector<double>& marks, bool
                  beside = half / std::numbers::sqrt3;
     return half * (push(middle - beside) + push(middle + beside));
   };
+  const std::vector<double> marks = marks_of(load_, 0.0, until, load_.muzzle_exit);
+  RigidMotion motion;
   for (std::size_t i = 1; i < marks.size(); ++i) {
-    const auto driven_to = [&, begin = marks[i - 1]](double end) -> RigidMotion {
-      const auto push = [&](double time) { return std::complex(1.0, end - time) * pressure(time); };
-      const std::complex<double> gained =
-          measured ? curve_rule(push, begin, end) : shape_rule.integrate(push, begin, end, tolerance);
-      return {motion.velocity + gained.real(),
+    const double begin = marks[i - 1], end = marks[i];
+    const auto push = [&](double time) { return std::complex(1.0, end - time) * at(time); };
+    const std::complex<double> gained =
+        is_measured() ? curve_rule(push, begin, end) : shape_rule.integrate(push, begin, end, tolerance);
+    motion = {motion.velocity + gained.real(),
               motion.travel + motion.velocity * (end - begin) + gained.imag(), end};
-    };
-    const RigidMotion next = driven_to(marks[i]);
-    if (!goal || !(next.travel >= *goal && std::isfinite(next.travel))) {
-      motion = next;
-      if (passed != nullptr) passed->push_back(motion);
-      continue;
-    }
-    constexpr int digits = 40;  // binary
-    const auto beyond_goal = [&](double time) {
-      const RigidMotion there = driven_to(time);
-      return std::pair(there.travel - *goal, there.velocity);
-    };
-    motion = driven_to(
-        boost::math::tools::newton_raphson_iterate(beyond_goal, marks[i], marks[i - 1], marks[i], digits));
-    motion.travel = *goal;
-    break;
   }
   return motion;
 }
 
-std::shared_ptr<const LoadInBarrel> barrel_of(const Load& load) {
-  if (load.in_barrel && load.in_barrel->is_of(load)) return load.in_barrel;
-  return std::make_shared<const LoadInBarrel>(load);
-}
-
-}  // namespace
-
-void build_curve(Load& load) {
-  if (load.curve_time.empty() || (load.in_barrel && load.in_barrel->is_of(load))) return;
-  const auto built = std::make_shared<LoadInBarrel>(load);
-  const auto pressure = [&](double time) { return built->at(time); };
-  const std::vector<double> marks = marks_between(load, 0.0, load.curve_time.back(), never);
-  built->largest = largest_at(marks, pressure, load.smoothing > 0.0);
-  built->driven.reserve(marks.size());
-  built->driven.emplace_back();
-  driven_on({}, marks, true, pressure, {}, &built->driven);
-  load.in_barrel = built;
-}
-
-PressureHistory::PressureHistory(const Load& load)
-    : barrel_(barrel_of(load)), duration_(load.duration), exit_decay_(load.exit_decay) {
-  if (load.muzzle_exit) {
-    exit_ = *load.muzzle_exit;
-  } else if (load.muzzle_travel && load.mass_over_area > 0.0) {
-    const double goal = *load.muzzle_travel * load.mass_over_area;
-    const RigidMotion motion = drive(end_in_the_barrel(barrel_->load), goal);
-    if (motion.travel == goal) exit_ = motion.time;
-  }
-  if (!std::isfinite(exit_)) return;
-  exit_pressure_ = barrel_->at(exit_);
-  pressure_outside_ = is_measured() ? 0.0 : barrel_->load.base;
-}
-
-bool PressureHistory::is_measured() const { return !barrel_->load.curve_time.empty(); }
-
-double PressureHistory::at(double time) const {
-  if (!(time > exit_)) return barrel_->at(time);
-  return pressure_outside_ + (exit_pressure_ - pressure_outside_) * std::exp(-(time - exit_) / exit_decay_);
-}
-
-std::vector<double> PressureHistory::marks() const {
-  return marks_between(barrel_->load, 0.0, duration_.value_or(launch_end()), exit_);
-}
-
-RigidMotion PressureHistory::drive(double until, std::optional<double> goal) const {
-  const std::vector<RigidMotion>& known = barrel_->driven;
-  const auto next = std::ranges::partition_point(known, [&](const RigidMotion& there) {
-    return there.time < std::min(until, exit_) && !(goal && there.travel >= *goal);
-  });
-  const RigidMotion start = next == known.begin() ? RigidMotion{} : *std::prev(next);
-  if (goal && next != known.end() && next->travel >= *goal) until = std::min(until, next->time);
-  return driven_on(
-      start, marks_between(barrel_->load, start.time, until, exit_), is_measured(),
-      [this](double time) { return at(time); }, goal);
-}
-
 std::pair<double, double> PressureHistory::largest() const {
-  if (!is_measured()) {
-    const double time = std::min({barrel_->load.peak_time, duration_.value_or(launch_end()), exit_});
-    return {time, at(time)};
-  }
-  const std::optional<LargestPressure>& known = barrel_->largest;
-  const double end = std::min(duration_.value_or(launch_end()), exit_);
-  if (known && known->next_mark <= end && !(at(end) > known->pressure)) return {known->time, known->pressure};
-  const LargestPressure own = largest_at(
-      marks(), [this](double t) { return at(t); }, barrel_->load.smoothing > 0.0);
-  return {own.time, own.pressure};
+  if (is_measured())
+    return largest_at(
+        marks(), [this](double t) { return at(t); }, load_.smoothing > 0.0);
+  const double time = std::min({load_.peak_time, load_.duration.value_or(launch_end()), exit()});
+  return {time, at(time)};
 }
 
 double PressureHistory::stated_peak() const {
-  return is_measured() ? barrel_->scale * barrel_->highest : barrel_->load.peak;
+  return is_measured() ? scale_ * std::ranges::max(load_.curve_pressure) : load_.peak;
 }
 
 double PressureHistory::launch_end() const {
-  if (!exit()) return end_in_the_barrel(barrel_->load);
+  if (!load_.muzzle_exit) return end_in_the_barrel(load_);
   const double height = stated_peak() - pressure_outside_;
   const double share = height > 0.0 ? (exit_pressure_ - pressure_outside_) / height : 0.0;
-  return exit_ + exit_decay_ * std::log(std::max(1.0, share / share_when_over));
-}
-
-std::optional<double> exit_time(const Load& load) {
-  if (load.muzzle_exit || !load.muzzle_travel) return load.muzzle_exit;
-  return PressureHistory(load).exit();
+  return exit() + load_.exit_decay * std::log(std::max(1.0, share / share_when_over));
 }
 
 double launch_end(const Load& load) {
-  const bool is_told = !load.muzzle_exit && !load.muzzle_travel;
-  return is_told ? end_in_the_barrel(load) : PressureHistory(load).launch_end();
+  return load.muzzle_exit ? PressureHistory(load).launch_end() : end_in_the_barrel(load);
 }
 
 double end_time(const Load& load) { return load.duration ? *load.duration : launch_end(load); }
 
 double read_time(const Load& load) {
   const double end = end_time(load);
-  return std::min(exit_time(load).value_or(end), end);
+  return std::min(load.muzzle_exit.value_or(end), end);
 }
 
 double share_left(const Load& load, double time) {
@@ -386,13 +270,9 @@ double share_left(const Load& load, double time) {
   return height > 0.0 ? (history.at(time) - base) / height : 0.0;
 }
 
-double calibres_of(const Scene& scene, const RigidMotion& motion) {
-  return motion.travel / (2.0 * extent_of(scene).r_end);
-}
-
 bool is_cut_short(const Load& load) {
   if (!load.duration || *load.duration >= launch_end(load) * (1.0 - same_time)) return false;
-  if (load.curve_time.empty() || exit_time(load)) return true;
+  if (load.curve_time.empty() || load.muzzle_exit) return true;
   // A gauge may have gone on after the pressure was gone.
   const PressureHistory history(load);
   const double over = share_when_over * history.stated_peak();
@@ -407,29 +287,25 @@ Load without_exit(Load load) {
   return load;
 }
 
-std::string exit_text(const Scene& scene) {
-  const std::optional<double> exit = exit_time(scene.load);
-  if (!exit) return {};
-  return fmt::format("{}, at {} with {:.3g} % of the peak pressure", rigid_motion_text(scene, *exit),
-                     time_text(*exit), 100.0 * share_left(scene.load, *exit));
+namespace {
+
+/// For people: motion and pressure at a time, s.
+std::string launch_text(const Scene& scene, double time) {
+  return fmt::format("{}, at {} with {:.3g} % of the peak pressure", rigid_motion_text(scene, time),
+                     time_text(time), 100.0 * share_left(scene.load, time));
 }
 
-std::string end_text(const Scene& scene) {
-  const Load& load = scene.load;
-  const double end = end_time(load);
-  const char* why = is_cut_short(load)         ? "cut short by load.duration"
-                    : load.duration            ? "as load.duration says"
-                    : exit_time(load)          ? "when the decay after the exit is over"
-                    : !load.curve_time.empty() ? "at the last point of the measured curve"
-                                               : "when the load is over";
-  return fmt::format("{}, at {} with {:.3g} % of the peak pressure, {}", rigid_motion_text(scene, end),
-                     time_text(end), 100.0 * share_left(load, end), why);
+}  // namespace
+
+std::string exit_text(const Scene& scene) {
+  return scene.load.muzzle_exit ? launch_text(scene, *scene.load.muzzle_exit) : "";
 }
+
+std::string end_text(const Scene& scene) { return launch_text(scene, end_time(scene.load)); }
 
 std::string launch_sentence(const Scene& scene) {
-  const std::string exit = exit_text(scene);
-  return exit.empty() ? "The load drives the shell to " + end_text(scene) + "."
-                      : "The shot leaves the barrel with " + exit + ".";
+  return scene.load.muzzle_exit ? "The shot leaves the barrel with " + exit_text(scene) + "."
+                                : "The load drives the shell to " + end_text(scene) + ".";
 }
 
 double peak_lost_to_smoothing(const Load& load) {

@@ -27,111 +27,82 @@ constexpr long double inch = 0.0254L, foot = 12 * inch;  // m
 constexpr long double psi = 0.45359237L * 9.80665L / (inch * inch);
 
 struct DimensionInfo {
-  std::string_view name;
-  std::string_view example;
-  std::string_view si_unit;
-  std::vector<Unit> units;                ///< powers of ten of the SI unit, the one to suggest first
+  std::string_view name, example;         ///< a number as an example, in the first unit
+  std::vector<Unit> units;                ///< the one to suggest first
   std::vector<std::string_view> display;  ///< units to try in this order when formatting for people
-  std::vector<Unit> scales = {};          ///< others
-  std::vector<Unit> spellings = {};       ///< of all of these, which no message names
 };
 
 const DimensionInfo& info_of(Dimension dimension) {
   static const std::array<DimensionInfo, dimension_count> table{{
-      {"number", "0.5", "", {}, {}},
-      {"whole number", "2", "", {}, {}},
+      {"number", "0.5", {}, {}},
+      {"whole number", "2", {}, {}},
       {"length",
-       "\"2.5 mm\"",
-       "m",
-       {{"cm", -2}, {"mm", -3}, {"m", 0}, {"um", -6}, {"\u00b5m", -6}},
-       {"cm", "mm", "\u00b5m", "m"},
-       {{"in", 0, inch}, {"ft", 0, foot}},
-       {{"\u03bcm", -6}}},
+       "2.5",
+       {{"cm", -2}, {"mm", -3}, {"m", 0}, {"um", -6}, {"\u00b5m", -6}, {"in", 0, inch}, {"ft", 0, foot}},
+       {"cm", "mm", "\u00b5m", "m"}},
       {"time",
-       "\"18 ms\"",
-       "s",
+       "18",
        {{"ms", -3}, {"s", 0}, {"us", -6}, {"\u00b5s", -6}, {"ns", -9}},
-       {"ms", "\u00b5s", "s", "ns"},
-       {},
-       {{"\u03bcs", -6}, {"msec", -3}, {"sec", 0}}},
+       {"ms", "\u00b5s", "s", "ns"}},
       {"pressure",
-       "\"496 MPa\"",
-       "Pa",
-       {{"MPa", 6}, {"GPa", 9}, {"kPa", 3}, {"Pa", 0}, {"bar", 5}, {"TPa", 12}, {"kbar", 8}, {"Mbar", 11}},
-       {"MPa", "GPa", "TPa", "kPa", "Pa"},
-       {{"psi", 0, psi}, {"ksi", 0, 1000 * psi}, {"atm", 0, 101325}},
-       {{"kpsi", 0, 1000 * psi}}},
+       "496",
+       {{"MPa", 6},
+        {"GPa", 9},
+        {"kPa", 3},
+        {"Pa", 0},
+        {"bar", 5},
+        {"TPa", 12},
+        {"kbar", 8},
+        {"Mbar", 11},
+        {"psi", 0, psi},
+        {"ksi", 0, 1000 * psi},
+        {"atm", 0, 101325}},
+       {"MPa", "GPa", "TPa", "kPa", "Pa"}},
       {"temperature",
-       "\"300 K\"",
-       "K",
-       {{"K", 0}},
-       {},
-       {celsius("\u00b0C"), celsius("degC"), fahrenheit("\u00b0F"), fahrenheit("degF")},
-       {celsius("C"), celsius("\u2103"), fahrenheit("F"), fahrenheit("\u2109")}},
-      {"temperature difference", "\"5 K\"", "K", {{"K", 0}}, {}},
-      {"density", "\"1717 kg/m3\"", "kg/m3", {{"kg/m3", 0}, {"g/cm3", 3}, {"kg/m^3", 0}, {"g/cm^3", 3}}, {}},
-      {"speed",
-       "\"300 m/s\"",
-       "m/s",
-       {{"m/s", 0}, {"km/s", 3}, {"mm/us", 3}, {"cm/us", 4}},
-       {},
-       {{"ft/s", 0, foot}}},
-      {"frequency", "\"7320 1/s\"", "1/s", {{"1/s", 0}, {"1/ms", 3}, {"1/us", 6}}, {}},
+       "300",
+       {{"K", 0},
+        celsius("\u00b0C"),
+        celsius("degC"),
+        celsius("C"),
+        fahrenheit("\u00b0F"),
+        fahrenheit("degF"),
+        fahrenheit("F")},
+       {}},
+      {"temperature difference", "5", {{"K", 0}}, {}},
+      {"density", "1717", {{"kg/m3", 0}, {"g/cm3", 3}, {"kg/m^3", 0}, {"g/cm^3", 3}}, {}},
+      {"speed", "300", {{"m/s", 0}, {"km/s", 3}, {"mm/us", 3}, {"cm/us", 4}, {"ft/s", 0, foot}}, {}},
+      {"frequency", "7320", {{"1/s", 0}, {"1/ms", 3}, {"1/us", 6}}, {}},
       {"specific energy",
-       "\"5.82 MJ/kg\"",
-       "J/kg",
+       "5.82",
        {{"MJ/kg", 6}, {"kJ/kg", 3}, {"J/kg", 0}, {"J/g", 3}, {"kJ/g", 6}},
        {"MJ/kg", "kJ/kg", "J/kg"}},
-      {"specific heat",
-       "\"1780 J/(kg K)\"",
-       "J/(kg K)",
-       {{"J/(kg K)", 0}, {"J/kg/K", 0}, {"J/kgK", 0}, {"kJ/(kg K)", 3}},
-       {}},
-      {"thermal conductivity",
-       "\"0.246 W/(m K)\"",
-       "W/(m K)",
-       {{"W/(m K)", 0}, {"W/m/K", 0}, {"W/mK", 0}},
-       {}},
-      {"fracture toughness",
-       "\"0.5 MPa m^0.5\"",
-       "Pa m^0.5",
-       {{"MPa m^0.5", 6}, {"Pa m^0.5", 0}},
-       {"MPa m^0.5", "Pa m^0.5"}},
-      {"share", "\"5 %\"", "", {{"%", -2}}, {"%"}},
-      {"mass", "\"1 kg\"", "kg", {{"kg", 0}, {"g", -3}}, {}},
-      {"volume", "\"1 cm3\"", "m3", {{"cm3", -6}, {"m3", 0}}, {}},
-      {"heat", "\"1 kJ\"", "J", {{"kJ", 3}, {"J", 0}}, {}},
-      {"heat per area", "\"1 kJ/m2\"", "J/m2", {{"kJ/m2", 3}, {"J/m2", 0}}, {}},
+      {"specific heat", "1780", {{"J/(kg K)", 0}, {"J/kg/K", 0}, {"J/kgK", 0}, {"kJ/(kg K)", 3}}, {}},
+      {"thermal conductivity", "0.246", {{"W/(m K)", 0}, {"W/m/K", 0}, {"W/mK", 0}}, {}},
+      {"fracture toughness", "0.5", {{"MPa m^0.5", 6}, {"Pa m^0.5", 0}}, {"MPa m^0.5", "Pa m^0.5"}},
+      {"share", "5", {{"%", -2}}, {"%"}},
+      {"mass", "1", {{"kg", 0}, {"g", -3}}, {}},
+      {"volume", "1", {{"cm3", -6}, {"m3", 0}}, {}},
+      {"heat", "1", {{"kJ", 3}, {"J", 0}}, {}},
+      {"heat per area", "1", {{"kJ/m2", 3}, {"J/m2", 0}}, {}},
       {"size of memory",
-       "\"8 GB\"",
-       "B",
-       {{"GB", 9}, {"MB", 6}, {"TB", 12}, {"kB", 3}, {"B", 0}},
-       {},
-       {{"KiB", 0, 0x1p10L}, {"MiB", 0, 0x1p20L}, {"GiB", 0, 0x1p30L}, {"TiB", 0, 0x1p40L}}},
-      {"duration", "\"10 min\"", "s", {{"s", 0}}, {}, {{"min", 0, 60}, {"h", 0, 3600}, {"d", 0, 86400}}},
+       "8",
+       {{"GB", 9}, {"MB", 6}, {"TB", 12}, {"kB", 3}, {"B", 0}, {"MiB", 0, 0x1p20L}, {"GiB", 0, 0x1p30L}},
+       {}},
+      {"duration", "10", {{"min", 0, 60}, {"h", 0, 3600}, {"d", 0, 86400}, {"s", 0}}, {}},
   }};
   return table[static_cast<std::size_t>(dimension)];
 }
 
-std::string without_blanks(std::string_view text) {
-  std::string result;
-  std::copy_if(text.begin(), text.end(), std::back_inserter(result), [](char c) { return c != ' '; });
-  return result;
-}
-
-/// The blanks of "J/(kg K)" may be left out; none may be put in, as in "M Pa".
 std::optional<Unit> find_unit(Dimension dimension, std::string_view name) {
-  const DimensionInfo& info = info_of(dimension);
-  for (const auto* units : {&info.units, &info.scales, &info.spellings})
-    for (const Unit& unit : *units)
-      if (unit.name == name || without_blanks(unit.name) == name) return unit;
-  return std::nullopt;
+  const std::vector<Unit>& units = info_of(dimension).units;
+  const auto found = std::ranges::find(units, name, &Unit::name);
+  return found == units.end() ? std::nullopt : std::optional(*found);
 }
 
 InputError fault(std::string found, Dimension dimension, std::string suggestion = {}) {
-  const DimensionInfo& info = info_of(dimension);
-  std::string allowed = fmt::format("a {}, such as {}", info.name, info.example);
-  if (!info.units.empty()) allowed += fmt::format(" (units: {})", fmt::join(units_of(dimension), ", "));
+  std::string allowed = fmt::format("a {}, such as {}", name_of(dimension), example_of(dimension));
+  const std::vector<std::string> units = units_of(dimension);
+  if (!units.empty()) allowed += fmt::format(" (units: {})", fmt::join(units, ", "));
   return {{}, 0, 0, {}, std::move(found), std::move(allowed), std::move(suggestion)};
 }
 
@@ -224,46 +195,48 @@ Dimension difference_of(Dimension dimension) {
 
 std::string_view name_of(Dimension dimension) { return info_of(dimension).name; }
 
-std::string_view example_of(Dimension dimension) { return info_of(dimension).example; }
+std::string example_of(Dimension dimension) {
+  const DimensionInfo& info = info_of(dimension);
+  if (info.units.empty()) return std::string(info.example);
+  return fmt::format("\"{} {}\"", info.example, info.units.front().name);
+}
 
-std::string_view si_unit_of(Dimension dimension) { return info_of(dimension).si_unit; }
+std::string_view si_unit_of(Dimension dimension) {
+  const std::vector<Unit>& units = info_of(dimension).units;
+  const auto si = std::ranges::find_if(units, [](const Unit& u) { return u.is_decimal() && u.power == 0; });
+  return si == units.end() ? std::string_view{} : si->name;
+}
 
 std::vector<std::string> units_of(Dimension dimension) {
   std::vector<std::string> names;
-  for (const auto* units : {&info_of(dimension).units, &info_of(dimension).scales})
-    for (const Unit& unit : *units) names.emplace_back(unit.name);
+  for (const Unit& unit : info_of(dimension).units) names.emplace_back(unit.name);
   return names;
 }
 
-Expected<double> parse_quantity(std::string_view text, Dimension dimension) {
-  return caught([&] { return convert(split(text, text, dimension), text, dimension); });
+double parse_quantity(std::string_view text, Dimension dimension) {
+  return convert(split(text, text, dimension), text, dimension);
 }
 
-Expected<std::vector<double>> parse_range(std::string_view text, Dimension dimension) {
-  const auto two_values = [&](std::string found) {
-    InputError result = fault(std::move(found), dimension);
-    const std::vector<Unit>& units = info_of(dimension).units;
-    const std::string unit = units.empty() ? "" : " " + std::string(units.front().name);
-    result.allowed =
-        fmt::format("a range of {}, lower end first, such as \"0 to 2.5{}\"", name_of(dimension), unit);
-    return result;
+std::vector<double> parse_range(std::string_view text, Dimension dimension) {
+  const auto wrong = [&](std::string_view why) {
+    InputError error = fault(fmt::format("\"{}\", {}", text, why), dimension);
+    error.allowed = fmt::format("a range, lower end first, such as \"0 to 2.5 {}\"", si_unit_of(dimension));
+    return error;
   };
   const std::size_t separator = text.find(" to ");
-  if (separator == std::string_view::npos) return two_values(fmt::format("\"{}\", without \"to\"", text));
-  return caught([&] {
-    std::vector<double> values =
-        convert_all({text.substr(0, separator), text.substr(separator + 4)}, text, dimension);
-    if (!(values[0] < values[1])) throw two_values(fmt::format("\"{}\", which has no extent", text));
-    return values;
-  });
+  if (separator == std::string_view::npos) throw wrong("without \"to\"");
+  const std::vector<double> values =
+      convert_all({text.substr(0, separator), text.substr(separator + 4)}, text, dimension);
+  if (!(values[0] < values[1])) throw wrong("which has no extent");
+  return values;
 }
 
-Expected<std::vector<double>> parse_list(std::string_view text, Dimension dimension) {
+std::vector<double> parse_list(std::string_view text, Dimension dimension) {
   for (std::size_t i = 1; i + 1 < text.size(); ++i)
     if (text[i] == ',' && is_digit(text[i - 1]) && is_digit(text[i + 1]))
-      return fault(fmt::format("\"{}\", where a comma without a blank may be a decimal point", text),
-                   dimension);
-  return caught([&] { return convert_all(parts_of_list(text), text, dimension); });
+      throw fault(fmt::format("\"{}\", where a comma without a blank may be a decimal point", text),
+                  dimension);
+  return convert_all(parts_of_list(text), text, dimension);
 }
 
 std::string format_quantity(double value_si, Dimension dimension) {
@@ -273,7 +246,8 @@ std::string format_quantity(double value_si, Dimension dimension) {
     const bool reads_well = value_si == 0.0 || (std::abs(value) >= 0.0999999 && std::abs(value) < 999.9999);
     if (reads_well || dimension == Dimension::share) return fmt::format("{:.6g} {}", value, unit);
   }
-  return fmt::format("{:.6g}{}{}", value_si, info.si_unit.empty() ? "" : " ", info.si_unit);
+  const std::string_view unit = si_unit_of(dimension);
+  return fmt::format("{:.6g}{}{}", value_si, unit.empty() ? "" : " ", unit);
 }
 
 std::string length_text(double length) { return format_quantity(length, Dimension::length); }

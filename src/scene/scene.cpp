@@ -15,18 +15,6 @@ double cross_section(double r_begin, double r_end) {
   return std::numbers::pi * (r_end - r_begin) * (r_end + r_begin);
 }
 
-/// Writes the band where the pressure acts on more than the rearmost faces, or only what is stated says so.
-void settle_band(Scene& scene) {
-  const std::optional<double> stated = std::exchange(scene.load.obturation, std::nullopt);
-  const Chamber usual = chamber_of(scene);
-  scene.load.obturation = stated;
-  const Chamber chamber = stated ? chamber_of(scene) : usual;
-  if (!chamber.unclear.empty()) return;
-  const bool says_nothing =
-      usual.unclear.empty() && usual.band == chamber.band && acts_on_rear_alone(scene, usual);
-  scene.load.obturation = says_nothing ? std::nullopt : std::optional(chamber.band);
-}
-
 }  // namespace
 
 std::vector<Material> usual_materials() {
@@ -159,12 +147,6 @@ RigidMotion rigid_motion(const Scene& scene, double time) {
 std::string rigid_motion_text(const Scene& scene, double time) {
   const RigidMotion motion = rigid_motion(scene, time);
   return fmt::format("{:.4g} m/s after {:.3g} m of travel", motion.velocity, motion.travel);
-}
-
-void settle_load(Scene& scene) {
-  settle_band(scene);
-  const double area = base_area(scene);
-  scene.load.mass_over_area = area > 0.0 ? total_mass(scene) / area : 0.0;
 }
 
 std::string word_of(LoadShape shape) { return shape == LoadShape::bell ? "bell" : "power-exponential"; }

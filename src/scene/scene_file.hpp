@@ -1,5 +1,4 @@
-// What readers share: text of input files before it is parsed, what no reader may see of it; and the parts
-// that reading a scene file is made of, its materials, and what is wrong with it.
+// The parts that reading a scene file is made of: its materials, its constants, and what is wrong with it.
 #pragma once
 
 #include "launchsafe/scene/read_scene.hpp"
@@ -30,27 +29,22 @@ std::vector<std::string> names_of(const std::vector<Named>& all) {
 
 /// Without blanks, tabs and line ends at its ends.
 std::string_view without_blanks_around(std::string_view text);
-/// With small letters (ASCII).
-std::string lower_case(std::string_view text);
-
 /// "a, b" as its parts between separators, without blanks around them; at least one, which may be empty.
 std::vector<std::string_view> parts_of_list(std::string_view text, char separator = ',');
 
-/// Throws the fault of the first byte of a text that is no UTF-8, or a NUL, with its line.
-void check_encoding(std::string_view text, const std::string& file);
-
-/// Throws that of a dotted key of so many parts that its nested tables would exhaust the stack of whoever
-/// walks through them. What is in a text or a comment counts too.
-void check_points(std::string_view toml, const std::string& file);
-
-/// A file of studies/materials.
+/// A file of studies/materials, or of studies/constants.
 struct BuiltInText {
   std::string file, text;  ///< "comp-b.toml"
 };
 const std::vector<BuiltInText>& built_in_materials();
-
-/// A file of studies/constants, the default first.
 const std::vector<BuiltInText>& built_in_constants();
+
+/// The material of a law that bodies name by its file or as one that ships; null where it is the usual one.
+const NamedMaterial* named_material_of(const SceneFile& file, std::string_view law);
+/// Makes the scene of materials that the bodies name: their numbers become given values of the law's keys,
+/// and the scene's own stand above them. Throws: a name that no material has, two materials of one law, keys
+/// of [kinetics] in the scene's own file that differ from the charge's material, a file that cannot be read.
+void use_materials(SceneFile& file, Scene& scene);
 
 /// The value that the constants of a scene file give a key of the scene; null where they give none, or where
 /// the file has its own: a measured curve, a steel, a charge with its ignition temperature.
@@ -61,24 +55,9 @@ void hold_by_constants(const SceneFile& file, Scene& scene);
 
 /// The keys of [load], under their names in that table.
 std::vector<Key<Load>> load_keys();
-
-/// Makes the scene of materials that the bodies name. The material that bodies of a law are of becomes the
-/// scene's material of that law: its numbers are given values of the law's keys, and the scene's own stand
-/// above them. Where bodies of one law are of several materials, that one is the law's that is called so,
-/// else the first body's; the others keep their names and numbers. Of explosives there may be one. Throws: a
-/// name that no material has, a second explosive, keys of a law of which no body says which material they
-/// mean, keys of [kinetics] in the scene's own file that differ from the charge's material, and a file of a
-/// material that cannot be read.
-void use_materials(SceneFile& file, Scene& scene);
-
-/// Reads all [interface.NAME] of a file, in the order of their names, and the places of these,
-/// "interface.<name>", and of "interface.<name>.<key>". Throws the fault of a table that is none, a key that
-/// does not exist, a value out of range.
-void read_interfaces(const toml::table& root, const std::string& file, Scene& scene,
-                     std::map<std::string, Place>& places);
-
-/// Whether two bodies share more than an edge of their surfaces.
-bool share_a_face(const Scene& scene, const Body& a, const Body& b);
+/// Keys of one [interface.NAME], and of one [[observation_point]].
+const std::vector<Key<Interface>>& interface_keys();
+const std::vector<Key<ObservationPoint>>& observation_point_keys();
 
 /// The extent of a body along one axis.
 struct Axis {
@@ -92,6 +71,18 @@ inline constexpr Axis axis_x{"x", &Body::x_begin, &Body::x_end}, axis_r{"r", &Bo
 inline double overlap(const Body& a, const Body& b, const Axis& along) {
   return std::min(a.*along.end, b.*along.end) - std::max(a.*along.begin, b.*along.begin);
 }
+/// Whether two bodies share more than an edge of their surfaces.
+bool share_a_face(const Scene& scene, const Body& a, const Body& b);
+
+/// All keys that are written, one a line: "PREFIX.KEY = VALUE".
+template <class Owner>
+std::string lines_of(const std::string& prefix, const std::vector<Key<Owner>>& keys, const Owner& owner) {
+  std::string text;
+  for (const Key<Owner>& key : keys)
+    if (!key.is_written || key.is_written(owner))
+      text += fmt::format("{}{} = {}\n", prefix, key.name, exact_toml(key, key.get(owner)));
+  return text;
+}
 
 /// A fault of a scene, at the place where the user gave the key.
 inline InputError fault_at(const SceneFile& file, const std::string& key, std::string_view found,
@@ -101,18 +92,16 @@ inline InputError fault_at(const SceneFile& file, const std::string& key, std::s
 
 // Each throws the first fault that it finds.
 
-/// Edges of bodies, or a bore around the axis, that nearly but not quite lie at one place: closer than a
-/// tenth of a cell, which no grid shows. The message has the value that makes them one.
-void check_near_edges(const SceneFile& file);
-/// A charge with an end that bodies do not cover all over, bodies that nothing holds, and a chamber that the
-/// drawing leaves unclear.
-void check_support(const SceneFile& file);
-/// A body that does not touch the charge, keys of an interface that are missing or would do nothing, sliding
-/// in a form that has none.
-void check_interfaces(const SceneFile& file);
+/// Bodies that overlap, nearly touch, or are held by nothing; a charge with an open end; a chamber that the
+/// drawing leaves open.
+void check_geometry(const SceneFile& file);
 /// Points of a measured curve of which no curve can be built.
 void check_curve(const SceneFile& file);
+/// The time of the muzzle exit, where its travel is stated; none where the projectile never comes that far.
+void find_exit(Scene& scene);
 /// What stands beside a measured curve, and the end of the load.
 void check_load(const SceneFile& file);
+/// The first fault that makes a scene unfit to compute (see the places of the file for where).
+void validate(const SceneFile& file);
 
 }  // namespace launchsafe::scene

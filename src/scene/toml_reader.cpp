@@ -20,8 +20,6 @@
 #pragma pop_macro("TOML_UNREACHABLE")
 // clang-format on
 
-#include "launchsafe/scene/toml_reader.hpp"
-
 #include "scene_file.hpp"
 
 #include <sstream>
@@ -46,101 +44,93 @@ Place place_at(const toml::source_region& region, const std::string& file) {
   return {file, static_cast<int>(region.begin.line), static_cast<int>(region.begin.column)};
 }
 
-InputError error_for(const Place& place, const KeyDescription& key, std::string found,
-                     std::string suggestion = {}) {
-  return error_at(place, key.name, std::move(found), allowed_text(key), std::move(suggestion));
-}
+/// Reads what stands at a place for a key.
+struct ValueReader {
+  const KeyDescription& key;
+  const std::string& file;
 
-std::vector<double> within_limits(std::vector<double> numbers, const std::string& found,
-                                  const KeyDescription& key, const Place& place) {
-  for (double& number : numbers) {
-    if (!key.limits.contain(number)) throw error_for(place, key, found);
-    number += 0.0;  // -0 is 0, also where it is written or compared by its digits
+  [[noreturn]] void refuse(const toml::node& node, const std::string& found,
+                           const std::string& suggestion = {}) const {
+    throw error_at(place_of(node, file), key.name, found, allowed_text(key), suggestion);
   }
-  if (key.list_length > 0 && numbers.size() != key.list_length)
-    throw error_for(place, key, fmt::format("{} with {} values", found, numbers.size()));
-  return numbers;
-}
 
-/// What a text was parsed as, for the key that it stands for.
-template <class Parsed>
-Parsed parsed_for(const KeyDescription& key, const Place& place, const Expected<Parsed>& parsed) {
-  if (!parsed) throw error_for(place, key, parsed.error().found, parsed.error().suggestion);
-  return *parsed;
-}
-
-/// A plain TOML number for a dimensionless key; a dimensional one needs its unit.
-double read_plain_number(const toml::node& node, const KeyDescription& key, const Place& place) {
-  const double value = node.value<double>().value_or(std::numeric_limits<double>::quiet_NaN());
-  if (!std::isfinite(value)) throw error_for(place, key, found_text(node) + ", which is not a finite number");
-  if (!units_of(key.dimension).empty()) throw error_for(place, key, found_text(node) + ", without a unit");
-  if (key.dimension == Dimension::count && !node.is_integer())
-    throw error_for(place, key, found_text(node) + ", which is no whole number");
-  return value;
-}
-
-double read_number(const toml::node& node, const KeyDescription& key, const Place& place) {
-  if (node.is_number()) return read_plain_number(node, key, place);
-  const auto text = node.value<std::string>();
-  if (!text) throw error_for(place, key, found_text(node));
-  const auto value = parse_quantity(*text, key.dimension);
-  if (units_of(key.dimension).empty())
-    throw error_for(place, key, found_text(node) + ", which is a text", value ? *text : std::string{});
-  return parsed_for(key, place, value);
-}
-
-std::vector<double> parse_numbers(const std::string& text, const KeyDescription& key, const Place& place) {
-  const bool is_one_range = key.kind == KeyKind::range;
-  return parsed_for(key, place,
-                    is_one_range ? parse_range(text, key.dimension) : parse_list(text, key.dimension));
-}
-
-std::vector<double> read_numbers(const toml::node& node, const KeyDescription& key, const Place& place) {
-  if (const auto text = node.value<std::string>()) return parse_numbers(*text, key, place);
-  if (node.is_number() && key.kind == KeyKind::list) return {read_number(node, key, place)};
-  const toml::array* array = node.as_array();
-  const bool too_short = array && array->empty() && !key.may_be_empty;
-  if (!array || key.kind == KeyKind::range || too_short) throw error_for(place, key, found_text(node));
-  std::vector<double> numbers;
-  for (const toml::node& element : *array)
-    numbers.push_back(read_number(element, key, place_of(element, place.file)));
-  return numbers;
-}
-
-std::string checked_word(const std::string& word, const KeyDescription& key, const Place& place) {
-  if (contains(key.words, word)) return word;
-  throw error_for(place, key, '"' + word + '"', in_quotes(nearest_of(word, key.words)));
-}
-
-/// Words between commas, each once; nothing for none. They come back in the order of the key's.
-std::string checked_words(const std::string& list, const KeyDescription& key, const Place& place) {
-  std::vector<std::string> found;
-  std::istringstream parts(list);
-  for (std::string part; std::getline(parts, part, ',');) {
-    const std::string word(without_blanks_around(part));
-    checked_word(word, key, place);
-    if (contains(found, word)) throw error_for(place, key, '"' + word + "\" twice");
-    found.push_back(word);
+  /// What a text is parsed as; a fault is that of the key.
+  template <class Parse>
+  auto parsed(const toml::node& node, const Parse& parse) const {
+    try {
+      return parse(node.value<std::string>().value(), key.dimension);
+    } catch (const InputError& fault) {
+      refuse(node, fault.found, fault.suggestion);
+    }
   }
-  std::vector<std::string> ordered = key.words;
-  std::erase_if(ordered, [&](const std::string& word) { return !contains(found, word); });
-  return fmt::format("{}", fmt::join(ordered, ", "));
-}
 
-/// One value of a table, which stands at a place.
-Value value_at(const toml::node& node, const KeyDescription& key, const Place& place) {
-  const auto* text = node.as_string();
-  if (key.kind == KeyKind::flag && node.is_boolean()) return node.as_boolean()->get();
-  if (key.kind == KeyKind::word && text) return checked_word(text->get(), key, place);
-  if (key.kind == KeyKind::words && text) return checked_words(text->get(), key, place);
-  if (key.kind == KeyKind::text && text) return text->get();
-  if (key.kind == KeyKind::number)
-    return within_limits({read_number(node, key, place)}, found_text(node), key, place).front();
-  if (key.kind != KeyKind::list && key.kind != KeyKind::range) throw error_for(place, key, found_text(node));
-  return within_limits(read_numbers(node, key, place), found_text(node), key, place);
-}
+  /// A plain TOML number for a dimensionless key; a dimensional one needs its unit.
+  double number(const toml::node& node) const {
+    const std::string found = found_text(node);
+    const bool has_units = !units_of(key.dimension).empty();
+    if (node.is_string() && has_units) return parsed(node, parse_quantity);
+    if (!node.is_number()) refuse(node, found + (node.is_string() ? ", which is a text" : ""));
+    const double value = node.value<double>().value_or(std::numeric_limits<double>::quiet_NaN());
+    if (!std::isfinite(value)) refuse(node, found + ", which is not a finite number");
+    if (has_units) refuse(node, found + ", without a unit");
+    if (key.dimension == Dimension::count && !node.is_integer())
+      refuse(node, found + ", which is no whole number");
+    return value;
+  }
 
-std::string last_part(const std::string& name) { return name.substr(name.rfind('.') + 1); }
+  /// Those of a list or a range, as one text or as an array.
+  std::vector<double> numbers(const toml::node& node) const {
+    if (node.is_string())
+      return key.kind == KeyKind::range ? parsed(node, parse_range) : parsed(node, parse_list);
+    if (node.is_number() && key.kind == KeyKind::list) return {number(node)};
+    const toml::array* array = node.as_array();
+    const bool too_short = array && array->empty() && !key.may_be_empty;
+    if (!array || key.kind == KeyKind::range || too_short) refuse(node, found_text(node));
+    std::vector<double> read;
+    for (const toml::node& element : *array) read.push_back(number(element));
+    return read;
+  }
+
+  std::vector<double> within_limits(std::vector<double> read, const toml::node& node) const {
+    for (double& each : read) {
+      if (!key.limits.contain(each)) refuse(node, found_text(node));
+      each += 0.0;  // -0 is 0, also where it is written or compared by its digits
+    }
+    if (key.list_length > 0 && read.size() != key.list_length)
+      refuse(node, fmt::format("{} with {} values", found_text(node), read.size()));
+    return read;
+  }
+
+  std::string word(const std::string& word, const toml::node& node) const {
+    if (!contains(key.words, word)) refuse(node, '"' + word + '"', in_quotes(nearest_of(word, key.words)));
+    return word;
+  }
+
+  /// Words between commas, each once; nothing for none. They come back in the order of the key's.
+  std::string words(const std::string& list, const toml::node& node) const {
+    std::vector<std::string> found;
+    for (const std::string_view part : parts_of_list(list)) {
+      if (part.empty() && list.empty()) break;
+      const std::string each = word(std::string(part), node);
+      if (contains(found, each)) refuse(node, '"' + each + "\" twice");
+      found.push_back(each);
+    }
+    std::vector<std::string> ordered = key.words;
+    std::erase_if(ordered, [&](const std::string& each) { return !contains(found, each); });
+    return fmt::format("{}", fmt::join(ordered, ", "));
+  }
+
+  Value value(const toml::node& node) const {
+    const auto* text = node.as_string();
+    if (key.kind == KeyKind::number) return within_limits({number(node)}, node).front();
+    if (key.kind == KeyKind::list || key.kind == KeyKind::range) return within_limits(numbers(node), node);
+    if (key.kind == KeyKind::flag && node.is_boolean()) return node.as_boolean()->get();
+    if (key.kind == KeyKind::word && text) return word(text->get(), node);
+    if (key.kind == KeyKind::words && text) return words(text->get(), node);
+    if (key.kind != KeyKind::text || !text) refuse(node, found_text(node));
+    return text->get();
+  }
+};
 
 std::string section_of(const std::string& name) {
   const std::size_t dot = name.rfind('.');
@@ -170,60 +160,44 @@ Place place_of(const toml::node& node, const std::string& file) { return place_a
 
 InputError error_at(const Place& place, std::string_view key, std::string_view found,
                     std::string_view allowed, std::string_view suggestion) {
-  return {place.file,
+  // What is allowed may be a list of many keys.
+  constexpr std::size_t longest = 240, longest_allowed = 4000, longest_file = 1000;
+  return {quotable(place.file, longest_file),
           place.line,
           place.column,
-          quotable(key, longest_quoted),
-          quotable(found, longest_quoted),
-          quotable(allowed, longest_allowed_quoted),
-          quotable(suggestion, longest_quoted)};
+          quotable(key, longest),
+          quotable(found, longest),
+          quotable(allowed, longest_allowed),
+          quotable(suggestion, longest)};
 }
 
-Expected<toml::table> parse_toml(std::string_view text, const std::string& file) {
-  return caught([&] {
-    check_encoding(text, file);
-    check_points(text, file);
-    try {
-      return toml::parse(text, file);
-    } catch (const toml::parse_error& error) {
-      throw error_at(place_at(error.source(), file), {},
-                     fmt::format("text that is not TOML ({})", error.description()),
-                     "TOML, such as key = \"2.5 mm\" or key = 2.5");
-    }
-  });
+toml::table parse_toml(std::string_view text, const std::string& file) {
+  try {
+    return toml::parse(text, file);
+  } catch (const toml::parse_error& error) {
+    throw error_at(place_at(error.source(), file), {},
+                   fmt::format("text that is not TOML ({})", error.description()),
+                   "TOML, such as key = \"2.5 mm\" or key = 2.5");
+  }
 }
 
-Expected<Value> read_value(const toml::node& node, const KeyDescription& key, const std::string& file) {
-  return caught([&] { return value_at(node, key, place_of(node, file)); });
+Value read_value(const toml::node& node, const KeyDescription& key, const std::string& file) {
+  return ValueReader{key, file}.value(node);
 }
 
-Expected<Value> parse_value(std::string_view text, const KeyDescription& key, const Place& place) {
-  return caught([&, written = std::string(text)]() -> Value {
-    if (key.kind == KeyKind::flag && (text == "true" || text == "false")) return text == "true";
-    if (key.kind != KeyKind::number) return value_at(toml::value<std::string>(written), key, place);
-    const double number = parsed_for(key, place, parse_quantity(text, key.dimension));
-    if (key.dimension == Dimension::count && number != std::round(number))
-      throw error_for(place, key, written + ", which is no whole number");
-    return within_limits({number}, '"' + written + '"', key, place).front();
-  });
-}
-
-Expected<std::vector<Value>> read_values(const toml::node& node, const KeyDescription& key,
-                                         const std::string& file) {
-  return caught([&, place = place_of(node, file)] {
-    std::vector<Value> values;
-    if (node.is_string() && key.kind == KeyKind::number && !units_of(key.dimension).empty()) {
-      const auto numbers =
-          within_limits(parse_numbers(node.as_string()->get(), key, place), found_text(node), key, place);
-      values.assign(numbers.begin(), numbers.end());
-      return values;
-    }
-    const toml::array* array = node.as_array();
-    if (array == nullptr) return std::vector{value_at(node, key, place)};
-    if (array->empty()) throw error_for(place, key, found_text(node));
-    for (const toml::node& each : *array) values.push_back(value_at(each, key, place_of(each, file)));
+std::vector<Value> read_values(const toml::node& node, const KeyDescription& key, const std::string& file) {
+  const ValueReader reader{key, file};
+  std::vector<Value> values;
+  if (node.is_string() && key.kind == KeyKind::number && !units_of(key.dimension).empty()) {
+    const auto numbers = reader.within_limits(reader.parsed(node, parse_list), node);
+    values.assign(numbers.begin(), numbers.end());
     return values;
-  });
+  }
+  const toml::array* array = node.as_array();
+  if (array == nullptr) return {reader.value(node)};
+  if (array->empty()) reader.refuse(node, found_text(node));
+  for (const toml::node& each : *array) values.push_back(reader.value(each));
+  return values;
 }
 
 void check_reason(const std::string& text, const Place& place, const std::string& key) {
@@ -242,43 +216,23 @@ InputError unknown_key(const Place& place, const std::string& name, const std::v
   const std::string section = section_of(name);
   std::vector<std::string> siblings, tables;
   for (const std::string& candidate : known) {
-    const std::string other = section_of(candidate);
-    if (other == section) siblings.push_back(last_part(candidate));
-    if (!other.empty() && !contains(tables, other)) tables.push_back(other);
+    const std::string table = section_of(candidate);
+    if (table == section) siblings.push_back(candidate.substr(candidate.rfind('.') + 1));
+    if (!table.empty() && !contains(tables, table)) tables.push_back(table);
   }
-  std::string allowed = section.empty() ? "the keys " : fmt::format("in [{}] the keys ", section);
-  if (siblings.empty()) allowed = tables.empty() ? "the keys " : "the tables ";
-  const auto& listed = !siblings.empty() ? siblings : !tables.empty() ? tables : known;
-  return error_at(place, name, "an unknown key", allowed + fmt::format("{}", fmt::join(listed, ", ")),
+  const std::string keys = section.empty() ? "the keys " : fmt::format("in [{}] the keys ", section);
+  return error_at(place, name, "an unknown key",
+                  siblings.empty() ? fmt::format("the tables {}", fmt::join(tables, ", "))
+                                   : keys + fmt::format("{}", fmt::join(siblings, ", ")),
                   nearest_of(name, known));
 }
 
-InputError within(const std::string& table, InputError error) {
-  error.key = table + "." + error.key;
-  return error;
-}
-
-void visit_tables(const toml::table& root, const std::string& table, std::string_view meaning,
-                  const std::string& file, const VisitTable& visit) {
-  const toml::node* node = root.get(table);
-  if (node == nullptr) return;
-  const auto table_in = [&](const toml::node& found, const std::string& key) -> const toml::table& {
-    if (const toml::table* inner = found.as_table()) return *inner;
-    throw error_at(place_of(found, file), key, found_text(found),
-                   fmt::format("tables, each written [{}.NAME] with the name {}", table, meaning));
-  };
-  for (const auto& [key, inner] : table_in(*node, table)) {
-    const std::string name(key.str());
-    visit(name, table_in(inner, table + "." + name));
-  }
-}
-
-Expected<std::vector<const toml::table*>> tables_of(const toml::table& root, const std::string& name,
-                                                    const std::string& file, const std::string& allowed) {
+std::vector<const toml::table*> tables_of(const toml::table& root, const std::string& name,
+                                          const std::string& file, const std::string& allowed) {
   std::vector<const toml::table*> tables;
   const toml::node* node = root.get(name);
   if (!node || (node->is_array() && node->as_array()->empty())) return tables;
-  if (!node->is_array_of_tables()) return error_at(place_of(*node, file), name, found_text(*node), allowed);
+  if (!node->is_array_of_tables()) throw error_at(place_of(*node, file), name, found_text(*node), allowed);
   for (const toml::node& element : *node->as_array()) tables.push_back(element.as_table());
   return tables;
 }
@@ -293,31 +247,30 @@ std::vector<Leaf> leaves_as_written(const toml::table& table, const std::vector<
   return leaves;
 }
 
-Expected<ReadValues> read_described(const toml::table& table, const std::vector<const KeyDescription*>& keys,
-                                    const std::vector<std::string>& elsewhere, const std::string& file) {
-  std::vector<std::string> known = elsewhere;
-  for (const KeyDescription* key : keys) known.push_back(key->name);
-  return caught([&] {
-    ReadValues read;
-    for (const Leaf& leaf : leaves_as_written(table, elsewhere)) {
-      const Place place = place_of(*leaf.node, file);
-      const auto key = std::ranges::find(keys, leaf.name, &KeyDescription::name);
-      if (key == keys.end()) {
-        const auto is_in_it = [&](const auto* each) { return each->name.starts_with(leaf.name + "."); };
-        if (std::ranges::none_of(keys, is_in_it)) throw unknown_key(place, leaf.name, known);
-        if (leaf.node->is_table()) continue;
-        throw error_at(place, leaf.name, found_text(*leaf.node),
-                       fmt::format("a table, written [{}]", leaf.name));
-      }
-      read.values.emplace_back(std::distance(keys.begin(), key), value_at(*leaf.node, **key, place));
-      read.places.emplace(leaf.name, place);
+std::map<std::string, Given> read_described(const toml::table& table, const std::vector<KeyDescription>& keys,
+                                            const std::vector<std::string>& elsewhere,
+                                            const std::string& file) {
+  std::map<std::string, Given> given;
+  for (const Leaf& leaf : leaves_as_written(table, elsewhere)) {
+    const Place place = place_of(*leaf.node, file);
+    if (const KeyDescription* key = find_named(keys, leaf.name)) {
+      given[leaf.name] = {place, read_value(*leaf.node, *key, file)};
+      continue;
     }
-    for (const KeyDescription* key : keys)
-      if (key->required && !read.places.contains(key->name))
-        throw error_for(place_of(table, file), *key, "nothing; the key is missing");
-    std::ranges::sort(read.values, {}, &std::pair<std::size_t, Value>::first);
-    return read;
-  });
+    const auto is_in_it = [&](const auto& each) { return each.name.starts_with(leaf.name + "."); };
+    if (std::ranges::none_of(keys, is_in_it)) {
+      std::vector<std::string> known = names_of(keys);
+      known.insert(known.end(), elsewhere.begin(), elsewhere.end());
+      throw unknown_key(place, leaf.name, known);
+    }
+    if (!leaf.node->is_table())
+      throw error_at(place, leaf.name, found_text(*leaf.node),
+                     fmt::format("a table, written [{}]", leaf.name));
+  }
+  for (const KeyDescription& key : keys)
+    if (key.required && !given.contains(key.name))
+      throw error_at(place_of(table, file), key.name, "nothing; the key is missing", allowed_text(key));
+  return given;
 }
 
 }  // namespace launchsafe::scene

@@ -2,53 +2,25 @@
 #include "scene_file.hpp"
 
 #include <set>
-#include <tuple>
 
 namespace launchsafe::scene {
 namespace {
 
-std::string range_text(double begin, double end) {
-  return fmt::format("{:.6g} to {:.6g} cm", in_unit(begin, Dimension::length, "cm"),
-                     in_unit(end, Dimension::length, "cm"));
-}
-
 template <class Owner>
-void check_names_of(const SceneFile& file, const std::string& table, const std::string& what,
-                    const std::vector<Owner>& owners) {
+void check_names_of(const SceneFile& file, const std::string& table, const std::vector<Owner>& owners) {
   std::set<std::string> names;
-  for (const Owner& owner : owners) {
-    if (!owner.name.empty() && names.insert(owner.name).second) continue;
-    throw fault_at(
-        file, table + "." + owner.name + ".name",
-        fmt::format("\"{}\" {}", owner.name, owner.name.empty() ? "without letters" : "a second time"),
-        fmt::format("a name that no other {} has", what));
-  }
+  for (const Owner& owner : owners)
+    if (owner.name.empty() || !names.insert(owner.name).second)
+      throw fault_at(file, table + "." + owner.name + ".name",
+                     fmt::format("\"{}\" {}", owner.name, owner.name.empty() ? "without letters" : "twice"),
+                     "a name that no other has");
 }
 
 void check_names(const SceneFile& file) {
   if (file.scene.bodies.empty())
     throw fault_at(file, "body", "no body", "at least one [[body]] with name, material, x and r");
-  check_names_of(file, "body", "body", file.scene.bodies);
-  check_names_of(file, "observation_point", "observation point", file.scene.output.observation_points);
-}
-
-void check_overlaps(const SceneFile& file) {
-  const double tolerance = length_tolerance(file.scene);
-  const auto& bodies = file.scene.bodies;
-  for (std::size_t j = 1; j < bodies.size(); ++j) {
-    for (std::size_t i = 0; i < j; ++i) {
-      const Body &a = bodies[i], &b = bodies[j];
-      const double x_begin = std::max(a.x_begin, b.x_begin), x_end = std::min(a.x_end, b.x_end);
-      const double r_begin = std::max(a.r_begin, b.r_begin), r_end = std::min(a.r_end, b.r_end);
-      if (x_end - x_begin <= tolerance || r_end - r_begin <= tolerance) continue;
-      // The direction in which they overlap less is the one that was probably meant to be otherwise.
-      const char* axis = x_end - x_begin < r_end - r_begin ? "x" : "r";
-      throw fault_at(file, fmt::format("body.{}.{}", b.name, axis),
-                     fmt::format("\"{}\", which overlaps the body \"{}\" in x {}, r {}", b.name, a.name,
-                                 range_text(x_begin, x_end), range_text(r_begin, r_end)),
-                     "bodies that touch but do not overlap");
-    }
-  }
+  check_names_of(file, "body", file.scene.bodies);
+  check_names_of(file, "observation_point", file.scene.output.observation_points);
 }
 
 /// A body thinner than half a cell is not resolved by the mesh at all.
@@ -61,38 +33,56 @@ void check_cell_size(const SceneFile& file) {
   const double largest = 2.0 * thickness(thinnest);
   if (cell <= largest * (1.0 + 1e-9)) return;
   throw fault_at(file, "numerics.cell_size",
-                 fmt::format("{}, with which the body \"{}\", {} thick, has no particle of the mesh",
-                             length_text(cell), thinnest.name, length_text(0.5 * largest)),
+                 fmt::format("{}, with which the body \"{}\" has no particle of the mesh", length_text(cell),
+                             thinnest.name),
                  fmt::format("at most {} for this body", length_text(largest)));
 }
 
+/// Something that two keys together make impossible.
+struct Conflict {
+  bool is_there = false;
+  std::string key, found, allowed;
+};
+
 /// What only one of the formulations has is refused with the other, so that nobody believes it at work.
-void check_formulation(const SceneFile& file) {
-  const Numerics& numerics = file.scene.numerics;
-  if (numerics.formulation == Formulation::total_lagrangian) return;
-  const std::string with_it = " with formulation \"updated-lagrangian\", ",
-                    even = with_it + "whose grid is even";
-  for (const auto& [key, factor, allowed] : {std::tuple{"numerics.growth_x", numerics.growth_x, "1" + even},
-                                             {"numerics.growth_r", numerics.growth_r, "1" + even},
-                                             {"numerics.selective_inertia", numerics.selective_inertia,
-                                              "1" + with_it + "which has one factor on all inertia"}})
-    if (factor > 1.0) throw fault_at(file, key, fmt::format("{:g}", factor), allowed);
+/// Particles of an even grid do not grow with their gas, so that their energy drifts in combustion.
+std::vector<Conflict> conflicts_of(const Scene& scene) {
+  const Numerics& numerics = scene.numerics;
+  const bool even = numerics.formulation == Formulation::updated_lagrangian, charge = has_charge(scene);
+  const bool couples = scene.coupling == Coupling::two_way;
+  const auto& kinetics = scene.charge().kinetics;
+  const auto& strength = scene.steel().strength;
+  const std::string only = "1 with formulation \"updated-lagrangian\"";
+  const auto kelvin = [](double temperature) { return fmt::format("{:.6g} K", temperature); };
+  const double end = end_time(scene.load),
+               gap = scene.surface.gaps.empty() ? 0.0 : std::ranges::max(scene.surface.gaps);
+  return {
+      {kinetics.ignition_temperature >= kinetics.burnt_temperature, "kinetics.ignition_temperature",
+       kelvin(kinetics.ignition_temperature),
+       "a temperature below kinetics.burnt_temperature, " + kelvin(kinetics.burnt_temperature)},
+      {scene.initial_temperature >= kinetics.ignition_temperature, "kinetics.ignition_temperature",
+       kelvin(kinetics.ignition_temperature),
+       "a temperature above the initial " + kelvin(scene.initial_temperature)},
+      {strength.room_temperature >= strength.melting_temperature, "steel.melting_temperature",
+       kelvin(strength.melting_temperature),
+       "a temperature above the room temperature, " + kelvin(strength.room_temperature)},
+      {gap > 0.0 && !charge, "gap.thickness", length_text(gap) + " in a scene without a charge",
+       "gaps only under a body of material \"charge\""},
+      {even && numerics.growth_x > 1.0, "numerics.growth_x", fmt::format("{:g}", numerics.growth_x), only},
+      {even && numerics.growth_r > 1.0, "numerics.growth_r", fmt::format("{:g}", numerics.growth_r), only},
+      {even && numerics.selective_inertia > 1.0, "numerics.selective_inertia",
+       fmt::format("{:g}", numerics.selective_inertia), only},
+      {couples && !charge, "coupling", "two-way in a scene without a charge", "one-way, or a charge"},
+      {couples && even, "coupling", "two-way with numerics.formulation = \"updated-lagrangian\"",
+       "one-way, or the formulation \"total-lagrangian\""},
+      {scene.output.trace_interval > end, "output.trace_interval", time_text(scene.output.trace_interval),
+       "an interval of at most the load's duration, " + time_text(end)},
+  };
 }
 
-void check_kinetics(const SceneFile& file) {
-  const materials::KineticsParameters& kinetics = file.scene.charge().kinetics;
-  const double initial = file.scene.initial_temperature;
-  if (!(kinetics.ignition_temperature < kinetics.burnt_temperature)) {
-    const bool burnt = file.given.contains("kinetics.burnt_temperature");
-    throw fault_at(file, burnt ? "kinetics.burnt_temperature" : "kinetics.ignition_temperature",
-                   fmt::format("an ignition temperature of {:.6g} K and a burnt temperature of {:.6g} K",
-                               kinetics.ignition_temperature, kinetics.burnt_temperature),
-                   "an ignition temperature below the burnt temperature");
-  }
-  if (!(initial < kinetics.ignition_temperature))
-    throw fault_at(file, "kinetics.ignition_temperature",
-                   fmt::format("{:.6g} K", kinetics.ignition_temperature),
-                   fmt::format("a temperature above the initial {:.6g} K", initial));
+void check_conflicts(const SceneFile& file) {
+  for (const Conflict& each : conflicts_of(file.scene))
+    if (each.is_there) throw fault_at(file, each.key, each.found, each.allowed);
 }
 
 void check_equation_of_state(const SceneFile& file) {
@@ -104,64 +94,54 @@ void check_equation_of_state(const SceneFile& file) {
                  fault->allowed);
 }
 
-void check_steel(const SceneFile& file) {
-  for (const Material& material : file.scene.materials) {
-    const auto* law = std::get_if<Steel>(&material.law);
-    if (law == nullptr || law->strength.room_temperature < law->strength.melting_temperature) continue;
-    const std::string table = material.name == Steel::name ? "" : "material." + material.name + ".";
-    throw fault_at(
-        file, (table.empty() ? "steel." : table) + "melting_temperature",
-        fmt::format("{:.6g} K", law->strength.melting_temperature),
-        fmt::format("a temperature above the room temperature, {:.6g} K", law->strength.room_temperature));
+void check_interfaces(const SceneFile& file) {
+  const std::vector<std::string> touching = bodies_at_the_charge(file.scene);
+  for (const Interface& faces : file.scene.interfaces) {
+    const std::string table = "interface." + faces.body;
+    // Faces that constants or studies hold have no place of their own.
+    const auto refuse = [&](const std::string& key, const std::string& found, const std::string& allowed) {
+      const std::string at = file.places.contains(table + key) ? key : ".condition";
+      throw error_at(place_of_key(file, table + at), table + key, found, allowed);
+    };
+    if (!contains(touching, faces.body)) {
+      const std::string nearest = nearest_of(faces.body, touching);
+      throw fault_at(file, table, "no body that touches the charge",
+                     touching.empty() ? "no interface: no body touches a charge" : quoted_list(touching),
+                     nearest.empty() ? nearest : "interface." + nearest);
+    }
+    if (can_slide(faces) && !faces.friction)
+      refuse(".friction", "nothing: faces that slide without their friction",
+             fmt::format("a friction from 0 (smooth) to {:g}", largest_friction));
+    if (faces.friction && !can_slide(faces))
+      refuse(".friction", "friction on bonded faces", "friction with condition = \"sliding\"");
+    if (can_slide(faces) && file.scene.numerics.formulation == Formulation::updated_lagrangian)
+      refuse(".condition", "faces that can slide with formulation \"updated-lagrangian\"",
+             "bonded faces, or numerics.formulation = \"total-lagrangian\"");
   }
 }
 
-void check_gaps(const SceneFile& file) {
-  std::vector<double> gaps = file.scene.surface.gaps;
-  std::ranges::sort(gaps);
-  const auto twice =
-      std::ranges::adjacent_find(gaps, [](double a, double b) { return b - a <= 1e-9 * std::max(b, 1e-6); });
-  if (twice != gaps.end())
-    throw fault_at(file, "gap.thickness", fmt::format("{} twice", length_text(*twice)), "each gap once");
-  if (!gaps.empty() && gaps.back() > 0.0 && !has_charge(file.scene))
-    throw fault_at(file, "gap.thickness",
-                   fmt::format("a gap of {} in a scene without a charge", length_text(gaps.back())),
-                   "gaps only under a body of material \"charge\"");
-}
-
-/// Of stations: more are no place that anybody looks at, and take minutes to plan.
-constexpr double most_stations = 1000;
-
-/// The stations that nothing is said of are as wide as a charge that is narrower, and end with a shorter one.
 void check_stations(const SceneFile& file) {
+  constexpr double most = 1000;  // more are no place that anybody looks at, and take minutes to plan
   if (!has_charge(file.scene)) return;
   const Extent charge = charge_extent(file.scene);
-  const double narrowest = (charge.r_end - charge.r_begin) / most_stations;
-  if (!(file.scene.surface.station_width >= narrowest))
-    throw fault_at(file, "station.width", length_text(file.scene.surface.station_width),
-                   fmt::format("at least {}, with which {:g} stations tile the charge's bottom",
-                               length_text(narrowest), most_stations));
-  const Surface& surface = file.scene.surface;
-  const Surface usual;
-  for (const auto& [key, given, preset, largest, what] :
-       {std::tuple{"station.width", surface.station_width, usual.station_width, charge.r_end - charge.r_begin,
-                   "width"},
-        std::tuple{"station.depth", surface.station_depth, usual.station_depth, charge.x_end - charge.x_begin,
-                   "length"}}) {
-    const bool is_usual = given >= preset && given <= preset;
-    if (is_usual || given <= largest + length_tolerance(file.scene)) continue;
-    throw fault_at(file, key, length_text(given),
-                   fmt::format("at most the charge's {}, {}", what, length_text(largest)));
-  }
+  const Surface &surface = file.scene.surface, usual;
+  const double width = charge.r_end - charge.r_begin, length = charge.x_end - charge.x_begin;
+  const double tolerance = length_tolerance(file.scene);
+  // The stations that nothing is said of are as wide as a charge that is narrower.
+  if (surface.station_width < width / most ||
+      (surface.station_width != usual.station_width && surface.station_width > width + tolerance))
+    throw fault_at(
+        file, "station.width", length_text(surface.station_width),
+        fmt::format("{} to the charge's width, {}", length_text(width / most), length_text(width)));
+  if (surface.station_depth != usual.station_depth && surface.station_depth > length + tolerance)
+    throw fault_at(file, "station.depth", length_text(surface.station_depth),
+                   "at most the charge's length, " + length_text(length));
 }
 
-/// m. Observation points read the skin of the charge's bottom.
-constexpr double largest_point_depth = 10e-3;
-
 void check_observation_points(const SceneFile& file) {
+  constexpr double largest_depth = 10e-3;  // m; points read the skin of the charge's bottom
   const Scene& scene = file.scene;
-  const double tolerance = length_tolerance(scene);
-  const Extent charge = charge_extent(scene);
+  const double tolerance = length_tolerance(scene), bottom = charge_extent(scene).x_end;
   for (const ObservationPoint& point : scene.output.observation_points) {
     const auto within = [&](double place, double begin, double end) {
       return place >= begin - tolerance && place <= end + tolerance;
@@ -170,61 +150,58 @@ void check_observation_points(const SceneFile& file) {
       return is_charge(scene, body) && within(point.x, body.x_begin, body.x_end) &&
              within(point.r, body.r_begin, body.r_end);
     });
-    const std::string key = "observation_point." + point.name;
-    if (in_charge && charge.x_end - point.x > largest_point_depth + tolerance)
-      throw fault_at(file, key + ".x", length_text(point.x),
-                     fmt::format("at most {} from the charge's bottom, whose temperatures it reads",
-                                 length_text(largest_point_depth)));
-    if (in_charge) continue;
-    throw fault_at(file, key + (within(point.x, charge.x_begin, charge.x_end) ? ".r" : ".x"),
+    const bool is_deep = !within(point.x, bottom - largest_depth, bottom);
+    if (in_charge && !is_deep) continue;
+    throw fault_at(file, "observation_point." + point.name + (is_deep ? ".x" : ".r"),
                    fmt::format("x {}, r {}", length_text(point.x), length_text(point.r)),
-                   has_charge(scene) ? fmt::format("a point in the charge, x {}, r {}",
-                                                   range_text(charge.x_begin, charge.x_end),
-                                                   range_text(charge.r_begin, charge.r_end))
-                                     : "none: the scene has no charge");
+                   fmt::format("a place in the charge within {} of its bottom, x {}",
+                               length_text(largest_depth), length_text(bottom)));
   }
 }
 
-void check_coupling(const SceneFile& file) {
+/// Gaps and times of snapshots, each once; a snapshot within the run.
+void check_lists(const SceneFile& file) {
   const Scene& scene = file.scene;
-  if (scene.coupling == Coupling::one_way) return;
-  if (!has_charge(scene))
-    throw fault_at(file, "coupling", "two-way in a scene without a charge", "one-way, or a charge");
-  // Particles of an even grid do not grow with their gas: the energy of a column of charge drifted by 2 % in
-  // the published release of heat, where the lattice at rest has 1e-7, and by more than 5 % in the full one.
-  if (scene.numerics.formulation == Formulation::updated_lagrangian)
-    throw fault_at(
-        file, "coupling", "two-way with numerics.formulation = \"updated-lagrangian\"",
-        "one-way, or the formulation \"total-lagrangian\", whose energy balances while gas expands");
-}
-
-void check_output(const SceneFile& file) {
-  const double duration = end_time(file.scene.load);
-  const std::string until = time_text(duration);
-  if (file.scene.output.trace_interval > duration)
-    throw fault_at(file, "output.trace_interval", time_text(file.scene.output.trace_interval),
-                   "an interval of at most the load's duration, " + until);
-  std::vector<double> times = file.scene.output.snapshot_times;
-  std::ranges::sort(times);
-  if (const auto twice = std::ranges::adjacent_find(times); twice != times.end())
-    throw fault_at(file, "output.snapshots", time_text(*twice) + " twice", "each time once");
-  const bool burns = file.scene.coupling == Coupling::two_way;
-  const double last = burns ? duration + file.scene.combustion.duration : duration;
-  for (const double time : times) {
-    if (time <= last * (1.0 + 1e-12)) continue;
-    throw fault_at(file, "output.snapshots", time_text(time),
-                   burns ? "times from 0 ms to combustion.duration after the load's end, " + time_text(last)
-                         : "times from 0 ms to the load's duration, " + until);
-  }
+  const auto check_twice = [&](const char* key, std::vector<double> values, Dimension dimension) {
+    std::ranges::sort(values);
+    const auto twice = std::ranges::adjacent_find(
+        values, [](double a, double b) { return b - a <= 1e-9 * std::max(b, 1e-6); });
+    if (twice != values.end())
+      throw fault_at(file, key, format_quantity(*twice, dimension) + " twice", "each value once");
+  };
+  check_twice("gap.thickness", scene.surface.gaps, Dimension::length);
+  check_twice("output.snapshots", scene.output.snapshot_times, Dimension::time);
+  const double burns = scene.coupling == Coupling::two_way ? scene.combustion.duration : 0.0;
+  const double last = end_time(scene.load) + burns;
+  for (const double time : scene.output.snapshot_times)
+    if (time > last * (1.0 + 1e-12))
+      throw fault_at(file, "output.snapshots", time_text(time),
+                     "times from 0 ms to the end of the run, " + time_text(last));
 }
 
 }  // namespace
 
+std::vector<InterfaceText> describe_interfaces(const Scene& scene) {
+  std::vector<InterfaceText> described;
+  for (const std::string& body : bodies_at_the_charge(scene)) {
+    const auto faces = std::ranges::find(scene.interfaces, body, &Interface::body);
+    if (faces == scene.interfaces.end() || !can_slide(*faces))
+      described.push_back(
+          {body, "bonded", "charge and body never part or slide, and the bond bears any tension and shear"});
+    else
+      described.push_back(
+          {body, "sliding",
+           fmt::format("Coulomb's friction {:g} on the pressure of the same instant, no tension, faces may "
+                       "part; the heat of friction is told and heats no skin",
+                       faces->friction.value_or(0.0))});
+  }
+  return described;
+}
+
 void validate(const SceneFile& file) {
   for (const auto check :
-       {check_names, check_near_edges, check_overlaps, check_support, check_interfaces, check_stations,
-        check_cell_size, check_load, check_kinetics, check_equation_of_state, check_steel, check_gaps,
-        check_observation_points, check_formulation, check_coupling, check_output})
+       {check_names, check_geometry, check_interfaces, check_stations, check_cell_size, check_load,
+        check_conflicts, check_equation_of_state, check_observation_points, check_lists})
     check(file);
 }
 

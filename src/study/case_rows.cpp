@@ -82,13 +82,14 @@ struct RowDrawer {
 
 void draw_gaps(const Study& study, CaseInDetail& drawn) {
   const BottomTrace& trace = drawn.result.mechanics.trace;
-  drawn.gaps.resize(study.gaps.size());
-  for (std::size_t i = 0; i < study.gaps.size(); ++i) drawn.gaps[i].gap = study.gaps[i];
+  const std::vector<double>& gaps = study.gaps.empty() ? drawn.input.scene.scene.surface.gaps : study.gaps;
+  drawn.gaps.resize(gaps.size());
+  for (std::size_t i = 0; i < gaps.size(); ++i) drawn.gaps[i].gap = gaps[i];
   if (!has_trace(drawn.result.mechanics)) return;
   const RowDrawer drawer{study, drawn.input, trace, drawn};
-  drawn.result.gaps.resize(study.gaps.size());
-  run_parts(study.gaps.size(), [&](std::size_t i) {
-    drawn.result.gaps[i] = run::evaluate_gap(drawn.input.scene.scene, trace, study.gaps[i]);
+  drawn.result.gaps.resize(gaps.size());
+  run_parts(gaps.size(), [&](std::size_t i) {
+    drawn.result.gaps[i] = run::evaluate_gap(drawn.input.scene.scene, trace, gaps[i]);
     drawn.gaps[i] = drawer.row_of(drawn.result.gaps[i]);
   });
 }

@@ -84,8 +84,6 @@ void predict_costs(std::vector<CaseRuns>& cases) {
 
 }  // namespace
 
-std::string Shard::part() const { return whole() ? std::string{} : fmt::format("{}-of-{}", index, count); }
-
 bool parse_shard(std::string_view text, Shard& shard) {
   constexpr int most_shards = 10000;
   static const std::regex form("([0-9]{1,9})/([0-9]{1,9})");

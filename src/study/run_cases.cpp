@@ -147,7 +147,7 @@ struct CaseLoop {
     entry.processor_time = mechanics.processor_time;
     if (state == CaseState::timed_out) entry.time_limit = options.time_limit;
     if (state == CaseState::done)
-      options.store->save(identity_of(run), run.scene, computed.result, std::move(entry));
+      options.store->save(identity_of(run), computed.result, std::move(entry));
     else
       options.store->note(std::move(entry));
   }
@@ -200,7 +200,7 @@ double scheduled(double work) { return std::isfinite(work) ? std::max(work, 1.0)
 
 CaseRun planned(scene::Scene scene, std::optional<double> gap, std::string label) {
   CaseRun run{std::move(label), std::move(scene), gap, {}};
-  run.hash = identity_of(run).hash();
+  run.hash = identity_of(run).hash;
   return run;
 }
 

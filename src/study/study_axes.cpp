@@ -38,7 +38,7 @@ Tables tables_of(const toml::table& root, const std::string& name, const StudyFi
   const std::string allowed = needed.empty()
                                   ? fmt::format("tables, each written [[{}]]", name)
                                   : fmt::format("at least one table, written [[{}]], {}", name, needed);
-  Tables tables = scene::tables_of(root, name, study.file, allowed).or_throw();
+  Tables tables = scene::tables_of(root, name, study.file, allowed);
   if (tables.empty() && !needed.empty())
     throw scene::error_at(place_of_key(study, root.contains(name) ? name : "kind"), name, "no " + name,
                           allowed);
@@ -47,8 +47,9 @@ Tables tables_of(const toml::table& root, const std::string& name, const StudyFi
 
 std::string read_named_file(const StudyFile& study, const std::filesystem::path& folder,
                             const std::string& key, const std::string& name, const std::string& wanted) {
-  auto text = scene::read_text_file(scene::named_file(folder, name, place_of_key(study, key), key, wanted));
-  if (text) return std::move(*text);
+  const auto file = scene::named_file(folder, name, place_of_key(study, key), key, wanted);
+  const auto text = scene::caught([&] { return scene::read_text_file(file); });
+  if (text) return *text;
   refuse_at(study, key, fmt::format("\"{}\", {}", name, text.error().found),
             wanted + ", by its path from this file's folder");
 }
@@ -67,7 +68,8 @@ std::string name_of_axis(const std::string& scene_key) {
 const std::vector<NamedAxis>& named_axes() {
   static const std::vector<NamedAxis> axes{{"peak_pressure", "load.peak"},
                                            {"crack_radius", "charge.crack_radius"},
-                                           {"flaw_size", "charge.flaw_size"}};
+                                           {"flaw_size", "charge.flaw_size"},
+                                           {"initial_temperature", "initial_temperature"}};
   return axes;
 }
 
@@ -75,7 +77,7 @@ KeyDescription varied_key(const StudyFile& study, const std::string& name, const
                           const Place& place) {
   const auto named = std::ranges::find(named_axes(), name, &NamedAxis::name);
   const std::string& wanted = named == named_axes().end() ? name : named->key;
-  auto key = scene::describe_key(study.scene, wanted, place);
+  auto key = scene::caught([&] { return scene::describe_key(study.scene, wanted, place); });
   if (key && key->kind == KeyKind::number) return std::move(*key);
   throw unfit_key(name, faulty_key, place, of_each(named_axes(), &NamedAxis::name));
 }

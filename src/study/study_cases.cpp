@@ -9,7 +9,7 @@ namespace {
 
 using scene::SceneFile;
 
-scene::Expected<SceneFile> with_all(const SceneFile& scene, const std::vector<Change>& changes) {
+SceneFile with_all(const SceneFile& scene, const std::vector<Change>& changes) {
   return scene::with_keys(scene, {changes.begin(), changes.end()});
 }
 
@@ -22,9 +22,9 @@ const Change& change_at_fault(const std::vector<Change>& changes, const scene::I
 /// Whether other values of a key make another launch, and not only another computation of the same one.
 bool is_condition(const scene::KeyDescription& key) {
   const auto begins = [&](const char* prefix) { return key.name.starts_with(prefix); };
-  return key.standing != scene::Standing::calibrated && key.acts_on != keys::ActsOn::nothing &&
-         key.acts_on != keys::ActsOn::numerics && !begins("numerics.") && !begins("output.") &&
-         !begins("physics.");
+  return key.name != gap_key && key.standing != scene::Standing::calibrated &&
+         key.acts_on != keys::ActsOn::nothing && key.acts_on != keys::ActsOn::numerics &&
+         !begins("numerics.") && !begins("output.") && !begins("physics.");
 }
 
 /// What varied cases are made from.
@@ -45,12 +45,18 @@ Start start_of(const StudyFile& study) {
   return start;
 }
 
+/// The only gap of a case is a list of one.
+scene::Value value_of(const Axis& axis, double coordinate) {
+  if (axis.key.kind == scene::KeyKind::number) return coordinate;
+  return std::vector{coordinate};
+}
+
 std::vector<Change> changes_of(const StudyFile& study, const std::vector<double>& coordinates) {
   std::vector<Change> changes;
   for (std::size_t i = 0; i < coordinates.size(); ++i) {
     const Axis& axis = study.study.axes[i];
     const std::string& key = axis.values_key.empty() ? axis.study_key : axis.values_key;
-    changes.push_back({axis.key.name, coordinates[i], place_of_key(study, key), key});
+    changes.push_back({axis.key.name, value_of(axis, coordinates[i]), place_of_key(study, key), key});
   }
   return changes;
 }
@@ -74,10 +80,9 @@ StudyCase varied_case(const Start& start, std::vector<double> coordinates, Scene
 /// A case that was found valid.
 StudyCase known_case(const Start& start, const std::vector<double>& coordinates) {
   std::vector<scene::KeyChange> changes;
-  for (const double value : coordinates) changes.push_back({start.axes[changes.size()].key.name, value, {}});
-  auto scene = scene::with_keys(start.scene, changes, true);
-  assert(scene);
-  return varied_case(start, coordinates, std::move(*scene));
+  for (std::size_t i = 0; i < coordinates.size(); ++i)
+    changes.push_back({start.axes[i].key.name, value_of(start.axes[i], coordinates[i]), {}});
+  return varied_case(start, coordinates, scene::with_keys(start.scene, changes, true));
 }
 
 /// One value of every axis: the place in their product, the last axis fastest.
@@ -88,15 +93,19 @@ std::vector<double> values_at(const std::vector<Axis>& axes, std::size_t place) 
   return values;
 }
 
-/// "496 MPa, 30 µm, 1 mm", peak pressure, crack radius and flaw size, where nothing else varies; otherwise
-/// every axis by its name: "peak_pressure 496 MPa, load.steepness 1.4".
+/// "496 MPa, 30 µm, 1 mm", peak pressure, crack radius and flaw size, and the temperature where it varies,
+/// ", 219 K", if nothing else does; otherwise every axis by its name: "peak_pressure 496 MPa,
+/// load.steepness 1.4".
 std::string case_label(const Study& study, const StudyCase& made) {
   const bool of_launch = std::ranges::all_of(study.axes, [](const Axis& axis) {
     return std::ranges::find(named_axes(), axis.name, &NamedAxis::name) != named_axes().end();
   });
-  if (of_launch)
-    return fmt::format("{:.6g} MPa, {:.6g} µm, {:.6g} mm", 1e-6 * made.peak_pressure,
-                       1e6 * made.strength().initial_crack_radius, 1e3 * made.strength().flaw_size);
+  if (of_launch) {
+    const bool warmed = std::ranges::find(study.axes, "initial_temperature", &Axis::name) != study.axes.end();
+    return fmt::format("{:.6g} MPa, {:.6g} µm, {:.6g} mm{}", 1e-6 * made.peak_pressure,
+                       1e6 * made.strength().initial_crack_radius, 1e3 * made.strength().flaw_size,
+                       warmed ? fmt::format(", {:.6g} K", made.scene.scene.initial_temperature) : "");
+  }
   std::string text;
   for (std::size_t i = 0; i < study.axes.size(); ++i)
     text += fmt::format("{}{} {}", i == 0 ? "" : ", ", study.axes[i].name,
@@ -159,13 +168,13 @@ bool same_number(double a, double b) { return std::abs(a - b) <= 1e-9 * std::max
 bool same_value(const scene::Value& a, const scene::Value& b) { return scene::same_value(a, b, 1e-9); }
 
 std::string text_of(const SceneFile& scene, const Change& change) {
-  return scene::format_value(scene::describe_key(scene, change.name, change.place).or_throw(), change.value);
+  return scene::format_value(scene::describe_key(scene, change.name, change.place), change.value);
 }
 
 scene::Expected<scene::SceneFile> with_changes(const scene::SceneFile& scene,
                                                const std::vector<Change>& changes) {
   if (changes.empty()) return scene;
-  auto changed = with_all(scene, changes);
+  auto changed = scene::caught([&] { return with_all(scene, changes); });
   if (changed) return changed;
   scene::InputError error = changed.error();
   const Change& change = change_at_fault(changes, error);
@@ -235,8 +244,13 @@ void check_count(const StudyFile& study, const std::string& key, double count, c
               fmt::format("at most {} mechanical runs", study.most_cases));
 }
 
+bool varies_gap(const Study& study) {
+  return std::ranges::any_of(study.axes, [](const Axis& axis) { return axis.key.name == gap_key; });
+}
+
 void settle_gaps(StudyFile& study) {
   if (!study.study.kind.judges_gaps || !study.study.gaps.empty()) return;
+  if (varies_gap(study.study)) return;  // each case has its own
   study.study.gaps = study.scene.scene.surface.gaps;
   if (study.study.gaps.empty())
     refuse_at(study, "gaps", "no gap", "at least one gap, in the study or its scene");

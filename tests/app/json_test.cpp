@@ -82,19 +82,6 @@ TEST_F(JsonProgram, AFaultOfTheInputHasItsParts) {
   EXPECT_TRUE(error["allowed"].is_string()) << error;
 }
 
-TEST_F(JsonProgram, VersionAndHelpAreObjects) {
-  const Outcome version = run({"--version", "--json"});
-  EXPECT_EQ(version.code, 0) << version.err;
-  const auto object = object_of(version);
-  for (const char* key : {"version", "commit", "compiler", "flags", "build_type"})
-    EXPECT_FALSE(object[key].get<std::string>().empty()) << key;
-  for (const Arguments& arguments : {Arguments{"--help", "--json"}, Arguments{"study", "--json", "--help"}}) {
-    const Outcome help = run(arguments);
-    EXPECT_EQ(help.code, 0) << help.err;
-    EXPECT_NE(object_of(help)["help"].get<std::string>().find("Examples:"), std::string::npos);
-  }
-}
-
 TEST_F(JsonProgram, AnInterruptionIsAnErrorOfOneObject) {
   write("long.toml", long_scene());
   start({"run", "long.toml", "--json", "--quiet"});

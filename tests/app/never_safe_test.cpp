@@ -138,12 +138,9 @@ TEST_F(NeverSafe, ALoadThatTheRangeTableContradictsIsRefused) {
 TEST_F(NeverSafe, AnotherShellIsOpen) {
   expect_open(in_scene("[charge]\n", "[charge]\nsliding_friction = 0.035\n"), "explosive");
   expect_open(with_hot_mix(), "explosive");
-  expect_open(
-      {{"shell.toml", "{ name = \"base\",   material = \"steel\"",
-        "{ name = \"base\",   material = \"hard\""},
-       {"shell.toml", "[load]",
-        "[material.hard]\n" + with(shipped("materials/shell-steel.toml"), "792 MPa", "1.5 GPa") + "[load]"}},
-      "steel");
+  expect_refused(in_scene("{ name = \"base\",   material = \"steel\"",
+                          "{ name = \"base\",   material = \"shell-steel\""),
+                 "body.base.material");
   expect_open(in_scene("cell_size = \"2.5 mm\"", "cell_size = \"3 mm\""), "cells");
 }
 

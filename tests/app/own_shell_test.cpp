@@ -119,16 +119,6 @@ TEST_F(OwnShell, IsNotInitialisedFromWhatIsNoLaunch) {
   }
 }
 
-TEST_F(OwnShell, IsAStudyOfEveryCalibre) {
-  for (const char* calibre : {"20 mm", "76 mm", "105 mm", "155 mm", "203 mm", "50 cm"}) {
-    const std::string folder = std::string("shell ") + calibre;
-    const Outcome started = run({"init", "--calibre", calibre, "--peak", "380 MPa", "-o", folder});
-    ASSERT_EQ(started.code, 0) << calibre << started.err;
-    const Outcome planned = run({"study", folder + "/critical_gap.toml", "--dry-run"});
-    EXPECT_EQ(planned.code, 0) << calibre << planned.err;
-  }
-}
-
 TEST_F(OwnShell, OverwritesNothingAndRefusesSenselessWishes) {
   EXPECT_EQ(run({"init", "--calibre", "105 mm", "-o", "shell"}).code, 0);
   EXPECT_EQ(run({"init", "--calibre", "105 mm", "-o", "shell"}).code, 0);

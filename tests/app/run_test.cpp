@@ -18,11 +18,9 @@ TEST_F(RunProgram, PrintsATableAndWritesACaseFile) {
        {"a small shell", "9.019 m/s", "0.000933 m", "T max [K]", "G1", "net work done on it"}) {
     EXPECT_NE(outcome.out.find(part), std::string::npos) << part << " in\n" << outcome.out;
   }
-  const auto stored = store::read_case_file(folder() / "out/deep/shell.h5");
-  ASSERT_TRUE(stored) << stored.error().message;
-  EXPECT_EQ(stored->title, "a small shell");
-  EXPECT_EQ(stored->result.gaps.size(), 2u);
-  EXPECT_EQ(stored->result.mechanics.status, run::RunStatus::completed);
+  const store::StoredCase stored = store::read_case_file(folder() / "out/deep/shell.h5");
+  EXPECT_EQ(stored.result.gaps.size(), 2u);
+  EXPECT_EQ(stored.result.mechanics.status, run::RunStatus::completed);
 }
 
 TEST_F(RunProgram, WritesNothingWithoutBeingTold) {
@@ -46,7 +44,7 @@ TEST_F(RunProgram, JsonIsOneObjectAndNothingElse) {
   EXPECT_TRUE(object["energy"].contains("drift"));
   for (const char* key : {"largest_plastic_strain_percent", "yielded_wall_mm", "friction_over_work"})
     EXPECT_TRUE(object["effects"].contains(key)) << key;
-  EXPECT_TRUE(object["file"].is_null());
+  EXPECT_EQ(object["file"], "");
 }
 
 // A trace of three samples, and a launch of 9 m/s over a millimetre.
@@ -56,11 +54,11 @@ TEST_F(RunProgram, WarningsStandBeforeEveryTemperatureAndLeaveTheExitCode) {
   const Outcome json = run({"run", "shell.toml", "--json", "--quiet"});
   EXPECT_EQ(text.code, 0) << text.err;
   EXPECT_EQ(json.code, 0) << json.err;
-  const auto stored = store::read_case_with_scene(folder() / "out/shell.h5");
-  ASSERT_TRUE(stored) << stored.error().message;
-  auto expected = run::validity_warnings(stored->scene, stored->stored.result.mechanics);
+  const store::StoredCase stored = store::read_case_file(folder() / "out/shell.h5");
+  const scene::Scene scene = scene::parse_scene(stored.manifest.input_text, "shell.toml").scene;
+  auto expected = run::validity_warnings(scene, stored.result.mechanics);
   EXPECT_FALSE(expected.empty());
-  std::ranges::move(run::launch_warnings(stored->scene), std::back_inserter(expected));
+  std::ranges::move(run::launch_warnings(scene), std::back_inserter(expected));
   const std::vector<std::string> listed = nlohmann::json::parse(json.out)["validity_warnings"];
   ASSERT_EQ(listed.size(), expected.size());
   for (std::size_t i = 0; i < listed.size(); ++i) {
@@ -69,14 +67,7 @@ TEST_F(RunProgram, WarningsStandBeforeEveryTemperatureAndLeaveTheExitCode) {
   }
 }
 
-TEST_F(RunProgram, TheSameInputMayBeRunAgainIntoTheSameFolder) {
-  write("shell.toml", tiny_scene);
-  ASSERT_EQ(run({"run", "shell.toml", "-o", "out"}).code, 0);
-  write("shell.toml", "# a remark changes nothing\n" + tiny_scene);
-  EXPECT_EQ(run({"run", "shell.toml", "-o", "out"}).code, 0);
-}
-
-TEST_F(RunProgram, ADifferentInputIsRefusedAndTheResultLeftAsItWas) {
+TEST_F(RunProgram, AResultThatIsThereIsLeftAsItWas) {
   write("shell.toml", tiny_scene);
   ASSERT_EQ(run({"run", "shell.toml", "-o", "out"}).code, 0);
   const std::string before = read("out/shell.h5");
@@ -92,9 +83,8 @@ TEST_F(RunProgram, ARunPastItsEnergyBoundFails) {
   write("shell.toml", with(tiny_scene, "energy_drift_limit = 0.5", "energy_drift_limit = 1e-9"));
   const Outcome outcome = run({"run", "shell.toml", "-o", "out"});
   EXPECT_EQ(outcome.code, 3);
-  const auto stored = store::read_case_file(folder() / "out/shell.h5");
-  ASSERT_TRUE(stored);
-  EXPECT_EQ(stored->result.mechanics.status, run::RunStatus::energy_drift);
+  EXPECT_EQ(store::read_case_file(folder() / "out/shell.h5").result.mechanics.status,
+            run::RunStatus::energy_drift);
 }
 
 TEST_F(RunProgram, ExplainSaysWhatIsInAndWhatItCosts) {

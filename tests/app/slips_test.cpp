@@ -97,7 +97,7 @@ class Slips : public testing::TemporaryFolder {
 TEST_F(Slips, MakeNoGapSafeThatIsNot) {
   const std::string scene =
       with(shipped("scene_155mm.toml"), "cell_size = \"1.25 mm\"", "cell_size = \"2.5 mm\"");
-  const CaseRow right = rows_of(scene, study_text).value().front();
+  const CaseRow right = rows_of(scene, study_text)->front();
   ASSERT_TRUE(right.failure.empty() && right.incomplete.empty()) << right.failure << right.incomplete;
   ASSERT_EQ(right.gaps.front().judgement.verdict, Verdict::safe);
   ASSERT_NE(right.gaps.back().judgement.verdict, Verdict::safe);

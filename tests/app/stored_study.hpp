@@ -121,8 +121,8 @@ class StoredStudy : public Program {
     std::map<std::string, std::string> files;
     for (const auto& entry : std::filesystem::recursive_directory_iterator(folder() / name)) {
       const std::string file = std::filesystem::relative(entry.path(), folder() / name).string();
-      const bool own = file == "manifest.json" || file.ends_with(".db") || file.starts_with("status") ||
-                       file.ends_with("-journal") || file.starts_with("earlier-");
+      const bool own = file == "manifest.json" || file.ends_with(".db") || file == "study.lock" ||
+                       file.ends_with("-journal");
       if (entry.is_regular_file() && !own) files[file] = read(name + "/" + file);
     }
     return files;
@@ -144,10 +144,8 @@ class StoredStudy : public Program {
   /// The hashes of the cases that are done; of a folder where no study is running.
   std::set<std::string> done_cases(const std::string& name) const {
     std::set<std::string> done;
-    const auto opened = store::CaseStore::open_to_read(folder() / name);
-    EXPECT_TRUE(opened) << (opened ? "" : opened.error().message);
-    if (!opened) return done;
-    for (const store::RunRecord& record : (*opened)->records())
+    if (!exists(name + "/study.db")) return done;
+    for (const store::RunRecord& record : store::CaseStore::open_to_read(folder() / name)->records())
       if (record.state == store::CaseState::done) done.insert(record.hash);
     return done;
   }
@@ -167,8 +165,7 @@ class StoredStudy : public Program {
     if (!exists(name + "/cases")) return cases;
     for (const auto& entry : std::filesystem::directory_iterator(folder() / name / "cases")) {
       if (entry.path().extension() != ".h5") continue;
-      const auto manifest = store::read_manifest(entry.path());
-      EXPECT_TRUE(manifest) << (manifest ? "" : manifest.error().message);
+      EXPECT_NO_THROW(store::read_case_file(entry.path())) << entry.path();
       cases.push_back(entry.path());
     }
     std::sort(cases.begin(), cases.end());

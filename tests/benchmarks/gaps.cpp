@@ -9,7 +9,7 @@ namespace {
 using namespace launchsafe;
 
 void gap_on_a_trace(benchmark::State& state) {
-  scene::Scene scene = scene::read_scene(LAUNCHSAFE_SOURCE_DIR "/studies/scene_155mm.toml").value().scene;
+  scene::Scene scene = scene::read_scene(LAUNCHSAFE_SOURCE_DIR "/studies/scene_155mm.toml").scene;
   scene.numerics.cell_size = 20e-3;
   scene.numerics.inertial_scaling = 400.0;
   const trace::BottomTrace trace = run::run_mechanics(scene).trace;

@@ -12,7 +12,8 @@ namespace {
 using namespace launchsafe;
 
 scene::Scene shipped_scene(double cell_size) {
-  const auto file = scene::read_scene(LAUNCHSAFE_SOURCE_DIR "/studies/scene_155mm.toml");
+  const auto file =
+      scene::caught([&] { return scene::read_scene(LAUNCHSAFE_SOURCE_DIR "/studies/scene_155mm.toml"); });
   if (!file) throw std::runtime_error("the shipped scene does not read");
   scene::Scene scene = file->scene;
   scene.numerics.inertial_scaling = 1.0;

@@ -36,7 +36,7 @@ std::string written(const scene::PressureCurve& curve, const std::string& header
 /// Reads the curve back from a text; equal to within `tolerance`, relative, where rounding to another unit
 /// leaves it a curve at all.
 void check_again(const scene::PressureCurve& curve, const std::string& text, double tolerance) {
-  const auto again = scene::parse_pressure_curve(text, "again.csv");
+  const auto again = scene::caught([&] { return scene::parse_pressure_curve(text, "again.csv"); });
   if (!again && tolerance > 0.0) return;
   fuzz::require(again.has_value(), "what was read and written can be read",
                 again ? std::string{} : again.error().message() + "\n" + text);
@@ -80,8 +80,9 @@ void check_history(const scene::PressureCurve& curve) {
 }  // namespace
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-  const auto curve =
-      scene::parse_pressure_curve(std::string(reinterpret_cast<const char*>(data), size), "curve.csv");
+  const auto curve = scene::caught([&] {
+    return scene::parse_pressure_curve(std::string(reinterpret_cast<const char*>(data), size), "curve.csv");
+  });
   if (!curve) {
     fuzz::require_told(curve.error());
     return 0;

@@ -17,7 +17,7 @@ using namespace launchsafe;
 /// Equal texts are equal scenes: every key is written, with every digit.
 void check_round_trip(const scene::Scene& given) {
   const std::string written = scene::to_toml(given);
-  const auto again = scene::parse_scene(written, "written.toml");
+  const auto again = scene::caught([&] { return scene::parse_scene(written, "written.toml"); });
   fuzz::require(again.has_value(), "what was read and written can be read",
                 again ? std::string{} : again.error().message() + "\n" + written);
   const std::string twice = scene::to_toml(again->scene);
@@ -58,7 +58,7 @@ void check_scene(const scene::SceneFile& file) {
 }
 
 void check_curve(const std::string& text) {
-  const auto curve = scene::parse_pressure_curve(text, "curve.csv");
+  const auto curve = scene::caught([&] { return scene::parse_pressure_curve(text, "curve.csv"); });
   if (!curve) return fuzz::require_told(curve.error());
   fuzz::require(curve->time.size() >= 2 && curve->time.size() == curve->pressure.size(),
                 "a curve has at least two points");
@@ -75,7 +75,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   } else {
     folder.remove("curve.csv");
   }
-  const auto file = scene::parse_scene(parts[0], folder.path() / "scene.toml");
+  const auto file = scene::caught([&] { return scene::parse_scene(parts[0], folder.path() / "scene.toml"); });
   file ? check_scene(*file) : fuzz::require_told(file.error());
   return 0;
 }

@@ -26,8 +26,9 @@ inline study::StudyFile bare_study(const study::KindTraits& kind, std::vector<do
   file.study.title = "A made study";
   file.study.scene = "scene_155mm.toml";
   file.study.gaps = std::move(gaps);
-  const auto scene =
-      scene::read_scene(std::filesystem::path(LAUNCHSAFE_SOURCE_DIR) / "studies" / "scene_155mm.toml");
+  const auto scene = scene::caught([&] {
+    return scene::read_scene(std::filesystem::path(LAUNCHSAFE_SOURCE_DIR) / "studies" / "scene_155mm.toml");
+  });
   EXPECT_TRUE(scene);
   if (scene) file.scene = *scene;
   return file;
@@ -35,7 +36,7 @@ inline study::StudyFile bare_study(const study::KindTraits& kind, std::vector<do
 
 inline study::Axis axis(const study::StudyFile& file, const std::string& name, const std::string& key,
                         std::vector<double> values) {
-  const auto description = scene::describe_key(file.scene, key, {});
+  const auto description = scene::caught([&] { return scene::describe_key(file.scene, key, {}); });
   EXPECT_TRUE(description) << key;
   return {name, "vary.0.key", description ? *description : scene::KeyDescription{}, std::move(values)};
 }

@@ -101,22 +101,21 @@ class StoredSweep : public launchsafe::testing::TemporaryFolder {
  protected:
   CriticalGapResult run(const StudyFile& study, Counting& counting, Shard shard = {},
                         double time_limit = std::numeric_limits<double>::infinity()) {
-    auto store = store::CaseStore::open(folder() / "results", shard.part());
-    EXPECT_TRUE(store) << (store ? "" : store.error().message);
+    const auto store = store::CaseStore::open(folder() / "results");
     StudyOptions options = counting.options();
-    options.store = store->get();
+    options.store = store.get();
     options.shard = shard;
     options.time_limit = time_limit;
     CriticalGapResult result = run_critical_gap(study, options);
-    remarks_ = (*store)->remarks();
-    EXPECT_FALSE((*store)->flush());
+    remarks_ = store->remarks();
+    EXPECT_FALSE(store->flush());
     return result;
   }
   Estimate estimate_in_store(const StudyFile& study) {
-    auto store = store::CaseStore::open(folder() / "results");
+    const auto store = store::CaseStore::open(folder() / "results");
     StudyOptions options;
     options.jobs = 2;
-    options.store = store->get();
+    options.store = store.get();
     return estimate_of(study, options);
   }
   std::vector<std::filesystem::path> case_files() const {

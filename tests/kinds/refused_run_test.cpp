@@ -14,11 +14,7 @@ using namespace launchsafe::study;
 
 class RefusedRun : public launchsafe::testing::TemporaryFolder {
  protected:
-  std::unique_ptr<store::CaseStore> open_store() {
-    auto store = store::CaseStore::open(folder() / "results");
-    EXPECT_TRUE(store) << (store ? "" : store.error().message);
-    return std::move(*store);
-  }
+  std::unique_ptr<store::CaseStore> open_store() { return store::CaseStore::open(folder() / "results"); }
   static StudyOptions options_with(store::CaseStore& store, double memory) {
     StudyOptions options = synthetic_options();
     options.store = &store;

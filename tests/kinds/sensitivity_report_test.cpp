@@ -65,8 +65,8 @@ TEST(SensitivityReport, RanksOnlyWhatTheIntervalsTellApart) {
   // The first two overlap now.
   result.outputs.resize(1);
   result.outputs[0].sobol.inputs[0].total = estimate(0.45, 0.2);
-  EXPECT_TRUE(in_order(answer(result),
-                       {"peak pressure (0.45 [0.25, 0.65]) and charge.crack_radius", "then", "N = 20"}));
+  EXPECT_TRUE(
+      in_order(answer(result), {"peak pressure (0.45 [0.25, 0.65]) and charge.crack_radius", "then"}));
 }
 
 TEST(SensitivityReport, EveryEvaluationIsARow) {

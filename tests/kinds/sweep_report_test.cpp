@@ -137,7 +137,7 @@ TEST(SweepPictures, TwoAxesMakeALineForEachValueOfTheShorterOne) {
   const auto made = gap_picture(made_sweep());
   ASSERT_TRUE(made);
   EXPECT_EQ(made->file, "critical_gap.svg");
-  const Plot& plot = made->plot;
+  const Plot& plot = std::get<Plot>(made->drawing);
   EXPECT_EQ(plot.x.label, "peak pressure [MPa]");
   EXPECT_EQ(plot.y.label, "critical gap [cm]");
   EXPECT_EQ(plot.x.scale, Scale::linear);
@@ -150,7 +150,7 @@ TEST(SweepPictures, TwoAxesMakeALineForEachValueOfTheShorterOne) {
 }
 
 TEST(SweepPictures, WhatIsNoValueIsAMarkByItsReasonAndBreaksItsLine) {
-  const Plot plot = gap_picture(made_sweep()).value().plot;
+  const Plot plot = std::get<Plot>(gap_picture(made_sweep()).value().drawing);
   std::size_t values = 0;
   for (std::size_t line = 0; line < 6; ++line)
     for (const double value : plot.series[line].y) values += std::isfinite(value) ? 1 : 0;
@@ -170,7 +170,7 @@ TEST(SweepPictures, MoreThanTwoAxesMakeNoPicture) {
 TEST(SweepPictures, OneAxisMakesOneLineWithItsLowerBoundAndMarks) {
   const auto made = gap_picture(one_axis());
   ASSERT_TRUE(made);
-  const Plot& curve = made->plot;
+  const Plot& curve = std::get<Plot>(made->drawing);
   EXPECT_EQ(curve.title, "Critical gap over crack radius, flaw size 1 mm");
   EXPECT_EQ(curve.x.scale, Scale::logarithmic);
   EXPECT_TRUE(std::isnan(curve.series[0].y[2])) << "the line breaks at the failure";

@@ -74,18 +74,18 @@ TEST_F(StoredSweep, WhereNothingMayBeComputedOnlyWhatIsStoredCounts) {
     return synthetic_mechanics(scene);
   };
   run(sweep_of("0 cm", {{"peak_pressure", "400, 496 MPa"}}), first);
-  auto store = store::CaseStore::open(folder() / "results");
+  const auto store = store::CaseStore::open(folder() / "results");
   StudyOptions options = second.options();
-  options.store = store->get();
+  options.store = store.get();
   options.compute = false;
   const CriticalGapResult result = run_critical_gap(study, options);
   EXPECT_EQ(second.runs(), 0);
   EXPECT_EQ(result.rows[0].failure, "the run failed: std::bad_alloc");  // as it would say by itself
   EXPECT_TRUE(result.rows[1].completed());
   EXPECT_EQ(result.rows[2].outcome, RunOutcome::not_stored);
-  EXPECT_FALSE((*store)->flush());
+  EXPECT_FALSE(store->flush());
   // Nothing was journaled that did not happen.
-  EXPECT_EQ((*store)->records().size(), 2u);
+  EXPECT_EQ(store->records().size(), 2u);
 }
 
 TEST_F(StoredSweep, ComputesADamagedCaseAgain) {

@@ -127,7 +127,7 @@ def main():
                 if not paper and found["smallest"] < 11:
                     faults.append(f"{report}, {view}: letters of {found['smallest']} pixels")
                 # What somebody accepts stands on page one too, however much it is.
-                if paper and report != "markup" and 'class="ACCEPTED"' not in page and found["answer"] > PAGE:
+                if paper and report != "markup" and 'class="SAFE, accepted"' not in page and found["answer"] > PAGE:
                     faults.append(f"{report}, {view}: the answer takes {found['answer']} of {PAGE} pixels")
                 if found["images"] == 0 or found["scripts"] or found["bold"] or "obeyed" == found["title"]:
                     faults.append(f"{report}, {view}: figures {found['images']}, scripts {found['scripts']}, {found['title']}")

@@ -20,7 +20,9 @@ TEST(CasePictures, OfFieldsAreNamedByFieldAndTheTimesThatWereAskedFor) {
 
 TEST(CasePictures, OfTheTemperatureShowTheSkinOfTheLargestGapThatDoesNotBurn) {
   RunScene run(cased_charge());
-  const auto drawn = [&] { return std::get<CellPlot>(pictures(run.drawn({4e-5}), "fields").front().plot); };
+  const auto drawn = [&] {
+    return std::get<CellPlot>(pictures(run.drawn({4e-5}), "fields").front().drawing);
+  };
   const auto particles = static_cast<std::size_t>(scene::particle_count(run.scene));
   const CellPlot of_largest = drawn();
   ASSERT_EQ(of_largest.scales.size(), 1U) << "one scale for all";
@@ -50,7 +52,7 @@ TEST(CasePictures, OfAFieldMarkWhatIsFarFromAllElse) {
   auto& snapshots = run.result.mechanics.snapshots;
   snapshots.back().pressure[0] = 1e12;
   const auto drawn = pictures(run.drawn({4e-5}), "fields");
-  const auto& plot = std::get<CellPlot>(drawn[1].plot);
+  const auto& plot = std::get<CellPlot>(drawn[1].drawing);
   EXPECT_LT(plot.scales[0].maximum, 1e4) << "MPa";
   const std::string commands = to_gnuplot(plot);
   EXPECT_GE(block_of(commands, "above").size(), 2U) << "on both sides of the axis";
@@ -61,9 +63,9 @@ TEST(CasePictures, OfFieldsShowEveryCellOnBothSidesOfTheAxis) {
   const RunScene run(cased_charge());
   const auto particles = static_cast<std::size_t>(scene::particle_count(run.scene));
   ASSERT_EQ(particles, 4U * 8 + 2 * 8 + 6 * 4) << "cells of 2.5 mm";
-  for (const CasePicture& picture : pictures(run.drawn(), "fields")) {
+  for (const Picture& picture : pictures(run.drawn(), "fields")) {
     if (picture.file.starts_with("field_temperature")) continue;  // has the skin's cells too
-    const std::string commands = to_gnuplot(std::get<CellPlot>(picture.plot));
+    const std::string commands = to_gnuplot(std::get<CellPlot>(picture.drawing));
     std::size_t cells = 0, below_axis = 0;
     for (const char* name : {"cells0", "cells1", "grey"})
       for (const std::string& line : block_of(commands, name)) {
@@ -88,9 +90,9 @@ TEST(CasePictures, OfAFieldHaveTheColoursOfTheirOwnInstant) {
   const auto [lowest, highest] = std::minmax_element(values.begin(), values.end());
   ASSERT_GT(*highest, *lowest);
   for (const auto& drawn : {run.drawn(), run.drawn({4e-5})})
-    for (const CasePicture& picture : pictures(drawn, "fields")) {
+    for (const Picture& picture : pictures(drawn, "fields")) {
       if (picture.file != "field_pressure_0.04ms.svg") continue;
-      const auto& plot = std::get<CellPlot>(picture.plot);
+      const auto& plot = std::get<CellPlot>(picture.drawing);
       ASSERT_EQ(plot.scales.size(), 2U);
       EXPECT_EQ(plot.scales[0].label, "charge: pressure [MPa]");
       EXPECT_EQ(plot.scales[1].label, "shell: pressure [MPa]");
@@ -124,8 +126,8 @@ TEST(CasePictures, OfEventsAndOfWhatBurnsSayItInColoursOfTheirOwn) {
         "field_pressure_0.04cm_0.04ms_ignition.svg", "field_burnt_share_0.04cm_0.04ms_ignition.svg"})
     EXPECT_TRUE(has(name)) << name;
   EXPECT_FALSE(has("field_burnt_share_0.04ms.svg")) << "nothing burns in the launch";
-  for (const CasePicture& picture : drawn) {
-    const auto& plot = std::get<CellPlot>(picture.plot);
+  for (const Picture& picture : drawn) {
+    const auto& plot = std::get<CellPlot>(picture.drawing);
     if (!picture.file.starts_with("field_pressure_")) continue;
     EXPECT_EQ(plot.scales[0].maximum == 2000.0, picture.gap.has_value()) << picture.file;
     if (picture.gap) {
@@ -134,33 +136,20 @@ TEST(CasePictures, OfEventsAndOfWhatBurnsSayItInColoursOfTheirOwn) {
   }
 }
 
-double number_after(const std::string& text, const std::string& words) {
-  const std::size_t at = text.find(words);
-  EXPECT_NE(at, std::string::npos) << words;
-  return std::stod(text.substr(at + words.size()));
-}
-
-/// Pixels per mm along x and r of the panel whose commands begin at `text`.
-std::pair<double, double> scales_of_panel(const std::string& text, double width, double height) {
-  const double left = number_after(text, "lmargin at screen "),
-               right = number_after(text, "rmargin at screen ");
-  const double top = number_after(text, "tmargin at screen "),
-               bottom = number_after(text, "bmargin at screen ");
-  const auto span = [&](const std::string& words) {
-    const double begin = number_after(text, words);
-    return number_after(text.substr(text.find(words) + words.size()), ":") - begin;
-  };
-  return {(right - left) * width / span("xrange ["), (top - bottom) * height / span("yrange [")};
-}
-
 TEST(CasePictures, OfFieldsAreToScale) {
   const RunScene run(cased_charge(0.2));
-  const auto plot = std::get<CellPlot>(pictures(run.drawn({4e-5}), "fields").at(1).plot);
-  const std::string commands = to_gnuplot(plot);
-  std::smatch size;
+  const std::string commands =
+      to_gnuplot(std::get<CellPlot>(pictures(run.drawn({4e-5}), "fields").at(1).drawing));
+  std::smatch size, at;
   ASSERT_TRUE(std::regex_search(commands, size, std::regex(R"(svg size (\d+),(\d+))")));
-  const auto scales = scales_of_panel(commands, std::stod(size[1]), std::stod(size[2]));
-  EXPECT_NEAR(scales.first / scales.second, 1.0, 1e-9);
+  ASSERT_TRUE(std::regex_search(
+      commands, at,
+      std::regex(R"(lmargin at screen (\S+)\nset rmargin at screen (\S+)\nset tmargin at screen (\S+)\n)"
+                 R"(set bmargin at screen (\S+)\nset xrange \[(\S+):(\S+)\]\nset yrange \[(\S+):(\S+)\])")));
+  const auto difference = [&](int from, int to) { return std::stod(at[to]) - std::stod(at[from]); };
+  const double scale_x = difference(1, 2) * std::stod(size[1]) / difference(5, 6);  // pixels per mm
+  const double scale_r = difference(4, 3) * std::stod(size[2]) / difference(7, 8);
+  EXPECT_NEAR(scale_x / scale_r, 1.0, 1e-9);
 }
 
 }  // namespace

@@ -9,15 +9,15 @@ TEST(CasePictures, HaveUnitsOnAllAxesAndColourBars) {
   const RunScene run(cased_charge());
   for (const PictureKind& each : picture_kinds()) {
     if (!each.lacks(run.drawn()).empty()) continue;
-    for (const CasePicture& picture : each.pictures(run.drawn())) {
-      if (const auto* plot = std::get_if<Plot>(&picture.plot)) {
+    for (const Picture& picture : each.pictures(run.drawn())) {
+      if (const auto* plot = std::get_if<Plot>(&picture.drawing)) {
         for (const Plot& panel : plot->panels.empty() ? std::vector{*plot} : plot->panels)
           for (const PlotAxis* axis : {&panel.x, &panel.y})
             EXPECT_TRUE(axis->label.ends_with("]")) << picture.file << ": " << axis->label;
         EXPECT_EQ(plot->subtitle, "a cased charge");
         continue;
       }
-      const auto& cells = std::get<CellPlot>(picture.plot);
+      const auto& cells = std::get<CellPlot>(picture.drawing);
       const std::string commands = to_gnuplot(cells);
       EXPECT_NE(commands.find("\"x [mm]\""), std::string::npos);
       EXPECT_NE(commands.find("\"r [mm]\""), std::string::npos);
@@ -112,36 +112,12 @@ TEST(CasePictures, SayWhatACaseLacks) {
   EXPECT_EQ(kind("pressure").lacks(run.drawn()), "");
 }
 
-TEST(CasePictures, OfFieldsAreRefusedWhereTheGridIsAnother) {
-  RunScene run(cased_charge());
-  run.scene.numerics.cell_size = 5e-3;
-  EXPECT_NE(kind("fields").lacks(run.drawn()), "");
-}
-
-TEST(CaseTables, HoldTheNumbersOfSnapshotsAndOfEveryGapsSkin) {
+TEST(CaseTables, HoldTheNumbersOfEveryGapsSkin) {
   const RunScene run(cased_charge());
   const DrawnCase drawn = run.drawn({2e-5});
-  const auto fields = kind("fields").tables(drawn);
-  ASSERT_EQ(fields.size(), 1U) << "of the time that is asked for";
-  EXPECT_EQ(fields[0].file, "field_0.02ms.csv");
-  const run::Snapshot& shot = run.result.mechanics.snapshots[1];
-  const Table& particles = fields[0].table;
-  ASSERT_EQ(particles.rows.size(), shot.x.size());
-  const std::vector<std::string> keys = keys_of(particles);
-  const auto cell = [&](std::size_t row, const char* key) {
-    return particles.rows[row].at(
-        static_cast<std::size_t>(std::find(keys.begin(), keys.end(), key) - keys.begin()));
-  };
-  EXPECT_EQ(cell(0, "body"), Cell("charge"));
-  EXPECT_EQ(cell(particles.rows.size() - 1, "body"), Cell("base"));
-  EXPECT_EQ(cell(3, "r_mm"), Cell(1e3 * shot.r[3]));
-  EXPECT_EQ(cell(3, "half_length_x_mm"), Cell(1e3 * shot.half_length_x[3]));
-  EXPECT_EQ(cell(3, "pressure_MPa"), Cell(1e-6 * shot.pressure[3]));
-  EXPECT_EQ(cell(3, "deviator_rx_MPa"), Cell(1e-6 * shot.deviator_rx[3]));
-  EXPECT_EQ(cell(3, "burnt_share"), Cell()) << "nothing burns";
   const auto skins = kind("histories").tables(drawn);
   ASSERT_EQ(skins.size(), 3U);
-  EXPECT_EQ(skins[2].file, "histories_0.04cm.csv");
+  EXPECT_EQ(skins[2].csv, "histories_0.04cm.csv");
   const surface::SkinHistory& skin = run.result.gaps[2].skin;
   ASSERT_EQ(skins[2].table.rows.size(), skin.time.size());
   EXPECT_EQ(skins[2].table.rows.back()[0], Cell(1e3 * skin.time.back()));

@@ -49,20 +49,20 @@ inline const PictureKind& kind(const std::string& word) {
                        [&](const PictureKind& each) { return each.word == word; });
 }
 
-inline std::vector<CasePicture> pictures(const DrawnCase& drawn, const std::string& word) {
+inline std::vector<Picture> pictures(const DrawnCase& drawn, const std::string& word) {
   EXPECT_EQ(kind(word).lacks(drawn), "");
   return kind(word).pictures(drawn);
 }
 
-inline std::vector<std::string> files(const std::vector<CasePicture>& drawn) {
+inline std::vector<std::string> files(const std::vector<Picture>& drawn) {
   std::vector<std::string> names;
-  for (const CasePicture& picture : drawn) names.push_back(picture.file);
+  for (const Picture& picture : drawn) names.push_back(picture.file);
   return names;
 }
 
-inline const Plot& plot_of(const std::vector<CasePicture>& drawn, const std::string& file) {
-  for (const CasePicture& picture : drawn)
-    if (picture.file == file) return std::get<Plot>(picture.plot);
+inline const Plot& plot_of(const std::vector<Picture>& drawn, const std::string& file) {
+  for (const Picture& picture : drawn)
+    if (picture.file == file) return std::get<Plot>(picture.drawing);
   ADD_FAILURE() << "no picture " << file;
   static const Plot none;
   return none;

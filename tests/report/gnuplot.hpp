@@ -22,11 +22,4 @@ inline std::vector<std::string> block_of(const std::string& commands, const std:
   return lines;
 }
 
-/// How often a part stands in a text.
-inline std::size_t count_of(const std::string& text, const std::string& part) {
-  std::size_t found = 0;
-  for (std::size_t at = text.find(part); at != std::string::npos; at = text.find(part, at + 1)) ++found;
-  return found;
-}
-
 }  // namespace launchsafe::report

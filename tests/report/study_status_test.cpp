@@ -9,31 +9,16 @@ namespace {
 
 constexpr std::time_t noon = 1772366400;  // 2026-03-01T12:00:00Z
 
-/// A snapshot of two minutes of a study, at noon.
-store::StoreStatus snapshot(const std::string& part = {}) {
-  study::Progress progress;
-  progress.running = 2;
-  progress.total = 12;
-  progress.cases = 24;
-  progress.cases_done = 10;
-  progress.cases_failed = 3;
-  progress.seconds_left = 600;
-  Row members = progress_row(progress);
-  members.update({{"host", "node1"},
-                  {"process", 7},
-                  {"since", "2026-03-01T11:58:00Z"},
-                  {"time", "2026-03-01T12:00:00Z"},
-                  {"ended", false},
-                  {"runs_stored", 5},
-                  {"command", "launchsafe study sweep.toml -o out"}});
-  return {part, members, true};
-}
-
-store::StoreStatus ended(int exit_code, const std::string& part = {}) {
-  store::StoreStatus made = snapshot(part);
-  made.members.update({{"ended", true}, {"exit_code", exit_code}, {"runs_running", 0}});
-  made.alive = false;
-  return made;
+/// A study, at noon.
+store::StudyStatus at_noon(bool alive, int exit_code = -1) {
+  return {.command = "launchsafe study sweep.toml -o out",
+          .time = "2026-03-01T12:00:00Z",
+          .cases = 24,
+          .cases_done = 10,
+          .cases_failed = 3,
+          .time_left = 600,
+          .exit_code = exit_code,
+          .alive = alive};
 }
 
 class StudyStatus : public ::testing::Test {
@@ -42,57 +27,35 @@ class StudyStatus : public ::testing::Test {
     ::setenv("TZ", "UTC", 1);
     ::tzset();
   }
+  static Row facts_of(const store::StudyStatus& status, std::time_t now) {
+    return status_facts({{"out", status}}, now)["folders"][0];
+  }
 };
 
-TEST_F(StudyStatus, CountsTheCasesOfARunningStudy) {
-  const Row facts = status_facts("out", {snapshot()}, noon);
-  for (const auto& [key, count] : {std::pair{"cases", 24},
-                                   {"cases_done", 10},
-                                   {"cases_failed", 3},
-                                   {"cases_left", 14},
-                                   {"runs_running", 2},
-                                   {"exit_code", 0}})
-    EXPECT_EQ(facts[key], count) << key;
-}
-
-TEST_F(StudyStatus, CountsDownBetweenSnapshots) {
-  EXPECT_EQ(status_facts("out", {snapshot()}, noon + 60)["time_left_s"], 540.0);
-}
-
-TEST_F(StudyStatus, AWriterThatDoesNotLiveWasInterruptedAndOneThatTellsNothingForHoursRuns) {
-  store::StoreStatus killed = snapshot();
-  killed.alive = false;
-  const Row facts = status_facts("out", {killed}, noon);
-  EXPECT_EQ(facts["state"], "interrupted");
-  EXPECT_EQ(facts["exit_code"], 75);
-  EXPECT_EQ(facts["command"], "launchsafe study sweep.toml -o out");
-  EXPECT_EQ(status_facts("out", {snapshot()}, noon + 7200)["state"], "running");
-  EXPECT_FALSE(facts.contains("time_left_s"));
+TEST_F(StudyStatus, CountsTheCasesOfARunningStudyAndTheTimeLeft) {
+  const Row facts = facts_of(at_noon(true), noon + 60);
+  EXPECT_EQ(facts["state"], "running");
+  EXPECT_EQ(facts["exit_code"], 0);
+  EXPECT_EQ(facts["cases"], 24);
+  EXPECT_EQ(facts["cases_done"], 10);
+  EXPECT_EQ(facts["cases_failed"], 3);
+  EXPECT_EQ(facts["time_left_s"], 540.0);
 }
 
 TEST_F(StudyStatus, HasTheExitCodeOfTheStudy) {
-  const std::vector<std::pair<int, const char*>> states{
-      {0, "finished"}, {3, "finished"}, {4, "finished"}, {70, "failed"}, {75, "interrupted"}};
-  for (const auto& [code, state] : states) {
-    const Row facts = status_facts("out", {ended(code)}, noon + 3600);
+  for (const auto& [stored, code, state] : {std::tuple{-1, 75, "interrupted"},
+                                            {0, 0, "finished"},
+                                            {3, 3, "finished"},
+                                            {70, 70, "failed"},
+                                            {75, 75, "interrupted"}}) {
+    const Row facts = facts_of(at_noon(false, stored), noon + 3600);
     EXPECT_EQ(facts["exit_code"], code);
     EXPECT_EQ(facts["state"], state);
+    EXPECT_TRUE(facts["time_left_s"].is_null());
   }
-  store::StoreStatus without_code = snapshot();
-  without_code.members["ended"] = true;
-  EXPECT_EQ(status_facts("out", {without_code}, noon)["exit_code"], 70);
-}
-
-TEST_F(StudyStatus, AddsUpShardsAndNamesThoseThatNobodySaw) {
-  const Row facts = status_facts("out", {ended(0, "1-of-4"), snapshot("2-of-4")}, noon);
-  EXPECT_EQ(facts["state"], "running");
-  EXPECT_EQ(facts["cases"], 48);
-  EXPECT_EQ(facts["cases_done"], 20);
-  EXPECT_FALSE(facts.contains("time_left_s")) << "two shards have not begun";
-  EXPECT_EQ(facts["writers"][1]["shard"], "2/4");
-  EXPECT_EQ(facts["shards_not_seen"], 2);
-  EXPECT_EQ(status_facts("out", {ended(0, "1-of-2")}, noon)["state"], "waiting");
-  EXPECT_EQ(status_facts("out", {ended(0, "1-of-2"), ended(75, "2-of-2")}, noon)["exit_code"], 75);
+  const Row both = status_facts({{"one", at_noon(false, 3)}, {"two", at_noon(false)}}, noon);
+  EXPECT_EQ(both["exit_code"], 75);
+  EXPECT_EQ(both["folders"].size(), 2u);
 }
 
 TEST_F(StudyStatus, FindsTheNextTimeOfDay) {

@@ -61,27 +61,6 @@ TEST(Table, NotesStandUnderIt) {
   EXPECT_TRUE(to_markdown(table).ends_with("|\n\nOne row was calibrated.\n\nTwo were not.\n"));
 }
 
-// A reason that all rows share is read once, below them; files have it in every row.
-TEST(Table, ASentenceThatAllRowsShareStandsOnceBelowIt) {
-  const std::string sentence =
-      "extrapolated: the constants were calibrated on another launch, and it is long";
-  Table table{
-      "", {{"gap", "gap", keys::fixed(1, centimetre)}, {"reason", "reason"}}, {{0.1, sentence}}, {"A note."}};
-  EXPECT_NE(to_text(table).find("0.1  extrapolated"), std::string::npos) << "one row is no repetition";
-  table.rows.push_back({0.2, sentence});
-  EXPECT_EQ(to_text(table),
-            "gap [cm]\n--------\n     0.1\n     0.2\n\nreason, in all rows: " + sentence + "\nA note.\n");
-  EXPECT_NE(to_markdown(table).find("\n\nreason, in all rows: " + sentence), std::string::npos);
-  EXPECT_NE(to_csv(table).find("0.2," + std::string("\"") + sentence), std::string::npos);
-  table.rows[0][1] = "ignition; " + sentence;
-  EXPECT_EQ(to_text(table),
-            "gap [cm]  reason\n--------  --------\n     0.1  ignition\n     0.2\n\nreason, in all rows: " +
-                sentence + "\nA note.\n")
-      << "the clauses that they end with";
-  table.rows.push_back({0.3, std::string("another")});
-  EXPECT_EQ(to_text(table).find("in all rows"), std::string::npos);
-}
-
 TEST(Table, MarkdownHasItsRuleAndAlignment) {
   EXPECT_EQ(to_markdown(verdicts()),
             "**Verdicts**\n"
@@ -99,6 +78,30 @@ TEST(Table, MarkdownEscapesWhatWouldBeMarkup) {
   const std::string text = to_markdown(table);
   EXPECT_NE(text.find("| a\\|b "), std::string::npos) << text;
   EXPECT_NE(text.find("x\\|y \\\\ \\*z\\* \\_u\\_ \\`v\\` \\<b\\> &amp; <br>new"), std::string::npos) << text;
+}
+
+TEST(Table, BoundsAreRoundedToTheSafeSideForPeopleAndWholeForPrograms) {
+  const Table table{"",
+                    {{"low", "low", down(keys::significant(3, centimetre))},
+                     {"high", "high", up(keys::significant(3, centimetre))},
+                     {"off", "off", up(keys::significant(2))},
+                     {"margin", "margin", down(keys::fixed(1, kelvin))}},
+                    {{0.017699, 0.053601, 141.0, -0.01}, {0.02, 0.05, 0.0, 30.0}}};
+  EXPECT_EQ(to_text(table),
+            "low [cm]  high [cm]  off  margin [K]\n"
+            "--------  ---------  ---  ----------\n"
+            "  0.0176     0.0537  150        -0.1\n"
+            "    0.02       0.05    0        30.0\n");
+  EXPECT_NE(to_csv(table).find("0.017699,0.053601,141,-0.01"), std::string::npos);
+}
+
+TEST(Table, HtmlEscapesItsCellsAndHasTheVerdictAsAClass) {
+  Table table = verdicts();
+  table.rows[0][2] = std::string("<b>");
+  const std::string html = to_html(table, "verdicts");
+  for (const char* part : {"<table id=\"verdicts-table\">", "&lt;b&gt;", ">416.1</td>",
+                           "<td class=\"UNSAFE\" data-heading=\"verdict\">UNSAFE</td>"})
+    EXPECT_NE(html.find(part), std::string::npos) << part << " in " << html;
 }
 
 TEST(Table, CsvFollowsRfc4180) {
@@ -123,18 +126,6 @@ TEST(Table, JsonKeepsNumbersExactlyAndOrder) {
   EXPECT_EQ(rows[0].dump(), R"({"gap_cm":0.0,"t_max_K":416.149,"at":"G2","steps":36000,"verdict":"SAFE"})");
   EXPECT_TRUE(rows[1]["t_max_K"].is_null());
   EXPECT_TRUE(rows[1]["at"].is_null());
-}
-
-TEST(Table, KeysAreMadeOfNameAndUnitAndAllDifferent) {
-  Table table;
-  table.columns = {{"t_max", "", keys::fixed(1, kelvin)},
-                   {"t_max", "", keys::fixed(1, kelvin)},
-                   {"heat", "", keys::fixed(1, kilojoule_per_area)},
-                   {"gci", "", keys::fixed(1, percent)},
-                   {"updates", "", keys::fixed(1, per_second)},
-                   {"own", ""}};
-  EXPECT_EQ(keys_of(table), (std::vector<std::string>{"t_max_K", "t_max_K_2", "heat_kJ_per_m2", "gci_percent",
-                                                      "updates_per_second", "own"}));
 }
 
 /// A row as results have it, in SI.

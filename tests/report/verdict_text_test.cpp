@@ -48,18 +48,6 @@ TEST(VerdictText, WhatIsOpenAndAcceptableIsWrittenOnce) {
   EXPECT_TRUE(acceptances_to_write({CaseRow()}).empty());
 }
 
-TEST(VerdictText, CausesHaveTheirClassAndShares) {
-  CaseRow row;
-  row.causes = {{study::Cause::peak_pressure, 1.234e-5, 2e-5},
-                {study::Cause::numerics, math::not_a_number, 0.0}};
-  const auto rows = json_rows(cause_table({{"a", &row}}));
-  EXPECT_EQ(rows[0]["class"], "random");
-  EXPECT_DOUBLE_EQ(rows[0]["shorter_cm"], 1.234e-3);
-  EXPECT_EQ(rows[1]["class"], "bound");
-  EXPECT_TRUE(rows[1]["shorter_cm"].is_null());
-  EXPECT_FALSE(rows[1]["remedy"].get<std::string>().empty());
-}
-
 TEST(VerdictText, NotesOfAStudyWithoutAnExpectedVelocitySaySo) {
   study::StudyFile study;
   const auto names_key = [&] {

@@ -15,7 +15,7 @@ scene::SceneFile small_file() {
   const std::string text =
       "[load]\nduration = \"0.05 ms\"\n[numerics]\ncell_size = \"5 mm\"\nenergy_drift_limit = 0.5\n" +
       testing::small_shell + testing::small_shell_base + testing::small_shell_point;
-  return scene::parse_scene(text, "shell.toml").value();
+  return scene::parse_scene(text, "shell.toml");
 }
 
 TEST(Cost, CountsOneSampleAStepAtMost) {

@@ -13,13 +13,15 @@ namespace launchsafe::run {
 namespace {
 
 MechanicsResult launch(const std::string& interfaces) {
-  const auto file =
-      scene::parse_scene("constants = \"none\"\n" + launchsafe::testing::small_shell +
-                             launchsafe::testing::small_shell_base + interfaces +
-                             "[load]\nduration = \"0.3 ms\"\npeak = \"200 MPa\"\npeak_time = \"0.2 ms\"\n"
-                             "shape = \"power-exponential\"\n"
-                             "[numerics]\ncell_size = \"2.5 mm\"\n",
-                         "small.toml");
+  const auto file = scene::caught([&] {
+    return scene::parse_scene(
+        "constants = \"none\"\n" + launchsafe::testing::small_shell + launchsafe::testing::small_shell_base +
+            interfaces +
+            "[load]\nduration = \"0.3 ms\"\npeak = \"200 MPa\"\npeak_time = \"0.2 ms\"\n"
+            "shape = \"power-exponential\"\n"
+            "[numerics]\ncell_size = \"2.5 mm\"\n",
+        "small.toml");
+  });
   EXPECT_TRUE(file) << file.error().message();
   return run_mechanics(file->scene);
 }

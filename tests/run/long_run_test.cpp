@@ -24,9 +24,9 @@ scene::Scene pulsing_shell(double steps) {
       "numerics.cell_size = \"5 mm\"\nnumerics.particles_per_cell = 2\nload.base = \"0 Pa\"\n"
       "charge.crack_growth = false\nnumerics.energy_drift_limit = 100\n" +
       testing::small_shell + testing::small_shell_base + testing::small_shell_point;
-  const auto file = scene::parse_scene(text, "long.toml");
+  const auto file = scene::caught([&] { return scene::parse_scene(text, "long.toml"); });
   EXPECT_TRUE(file) << (file ? "" : file.error().message());
-  scene::Scene scene = file.value().scene;
+  scene::Scene scene = file->scene;
   scene.load.duration = steps * scene::make_plan(scene).time_step;
   scene.output.trace_interval = scene::end_time(scene.load) / 100.0;
   for (int i = 0; i <= 2 * pulses; ++i) {

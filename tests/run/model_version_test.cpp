@@ -171,7 +171,7 @@ scene::Scene scene_with(Keys keys) {
   std::string text;
   for (const auto& [key, value] : keys) text += fmt::format("{} = {}\n", key, value);
   text += testing::small_shell + testing::small_shell_base + testing::small_shell_point;
-  const auto file = scene::parse_scene(text, "model.toml");
+  const auto file = scene::caught([&] { return scene::parse_scene(text, "model.toml"); });
   EXPECT_TRUE(file) << (file ? "" : file.error().message());
   return file ? file->scene : scene::Scene{};
 }
@@ -215,8 +215,7 @@ Numbers computed() {
   add_skin(numbers, "coupled: ", run_with_skin(plain, 2e-4).gaps.at(0));
   // Load and constants of an early calibration: what a calibration finds is no part of the model.
   scene::Scene shell =
-      scene::with_constants(*scene::read_scene(LAUNCHSAFE_SOURCE_DIR "/studies/scene_155mm.toml"), nullptr)
-          .value()
+      scene::with_constants(scene::read_scene(LAUNCHSAFE_SOURCE_DIR "/studies/scene_155mm.toml"), nullptr)
           .scene;
   shell.load.shape = scene::LoadShape::power_exponential;
   shell.load.peak_time = 12.9641e-3;

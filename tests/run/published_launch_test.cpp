@@ -18,7 +18,7 @@ constexpr double early = 10e-3, exit = 18e-3;  // s
 
 struct PublishedLaunch : ::testing::Test {
   static void SetUpTestSuite() {
-    scene = scene::read_scene(LAUNCHSAFE_SOURCE_DIR "/studies/scene_155mm.toml").value().scene;
+    scene = scene::read_scene(LAUNCHSAFE_SOURCE_DIR "/studies/scene_155mm.toml").scene;
     mechanics = run_mechanics(scene, {});
   }
   static GapResult at(double gap) { return evaluate_gap(scene, mechanics.trace, gap); }

@@ -117,11 +117,11 @@ std::string random_load(const scene::Scene& shell) {
 /// A valid scene of some hundred steps.
 scene::Scene random_scene() {
   const std::string text = random_numerics() + random_materials() + random_air() + random_shell();
-  const auto shell = scene::parse_scene(text, "shell.toml");
+  const auto shell = scene::caught([&] { return scene::parse_scene(text, "shell.toml"); });
   RC_LOG() << text << (shell ? "" : shell.error().message()) << "\n";
   RC_ASSERT(shell.has_value());
   const std::string whole = random_load(shell->scene) + text;
-  const auto file = scene::parse_scene(whole, "random.toml");
+  const auto file = scene::caught([&] { return scene::parse_scene(whole, "random.toml"); });
   RC_LOG() << whole << (file ? "" : file.error().message()) << "\n";
   RC_ASSERT(file.has_value());
   return file->scene;

@@ -15,9 +15,10 @@ namespace {
 
 /// The shipped scene with a bonded base and a smooth wall, at a mesh that runs in a fraction of a second.
 scene::Scene coarse_scene() {
-  const auto shipped = scene::read_scene(LAUNCHSAFE_SOURCE_DIR "/studies/scene_155mm.toml");
+  const auto shipped =
+      scene::caught([&] { return scene::read_scene(LAUNCHSAFE_SOURCE_DIR "/studies/scene_155mm.toml"); });
   const auto bonded_base = scene::find_constants("bonded_base", {}, {}, "constants");
-  scene::Scene scene = scene::with_constants(*shipped, bonded_base).value().scene;
+  scene::Scene scene = scene::with_constants(*shipped, bonded_base).scene;
   scene.numerics.cell_size = 10e-3;
   scene.numerics.inertial_scaling = 16.0;
   scene.numerics.selective_inertia = 1.0;

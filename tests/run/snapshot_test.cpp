@@ -21,14 +21,16 @@ using scene::Event;
 
 /// A shell with smooth or rough faces, or bonded ones, whose skin ignites after some 0.2 ms.
 scene::Scene shell(const std::string& more = "") {
-  auto file =
-      scene::parse_scene("constants = \"none\"\n" + testing::small_shell + testing::small_shell_base + more +
-                             "[load]\nduration = \"0.3 ms\"\npeak = \"200 MPa\"\n"
-                             "peak_time = \"0.2 ms\"\nexponent = 4\nshape = "
-                             "\"power-exponential\"\n[numerics]\ncell_size = \"2.5 mm\"\n"
-                             "[output]\ntrace_interval = \"5 us\"\n[gap]\nthickness = \"0, 0.04 cm\"\n"
-                             "exchange_time = \"0.02 ms\"\n",
-                         "small.toml");
+  auto file = scene::caught([&] {
+    return scene::parse_scene("constants = \"none\"\n" + testing::small_shell + testing::small_shell_base +
+                                  more +
+                                  "[load]\nduration = \"0.3 ms\"\npeak = \"200 MPa\"\n"
+                                  "peak_time = \"0.2 ms\"\nexponent = 4\nshape = "
+                                  "\"power-exponential\"\n[numerics]\ncell_size = \"2.5 mm\"\n"
+                                  "[output]\ntrace_interval = \"5 us\"\n[gap]\nthickness = \"0, 0.04 cm\"\n"
+                                  "exchange_time = \"0.02 ms\"\n",
+                              "small.toml");
+  });
   EXPECT_TRUE(file) << file.error().message();
   scene::Scene scene = file->scene;
   scene.charge().kinetics.ignition_temperature = 320.0;

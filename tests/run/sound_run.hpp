@@ -14,7 +14,7 @@ namespace launchsafe::run::test_support {
 
 /// With true inertia.
 inline scene::Scene shipped_scene() {
-  scene::Scene scene = scene::read_scene(LAUNCHSAFE_SOURCE_DIR "/studies/scene_155mm.toml").value().scene;
+  scene::Scene scene = scene::read_scene(LAUNCHSAFE_SOURCE_DIR "/studies/scene_155mm.toml").scene;
   scene.numerics.selective_inertia = 1.0;
   return scene;
 }

@@ -10,8 +10,7 @@ namespace {
 
 /// Square cells of 2.5 mm along all bodies: particles fill their cells.
 scene::Scene small_shell(scene::Formulation formulation = scene::Formulation::updated_lagrangian) {
-  scene::Scene scene =
-      scene::read_scene(LAUNCHSAFE_SOURCE_DIR "/studies/stability/small_shell.toml").value().scene;
+  scene::Scene scene = scene::read_scene(LAUNCHSAFE_SOURCE_DIR "/studies/stability/small_shell.toml").scene;
   scene.numerics.formulation = formulation;
   scene.numerics.cell_size = 2.5e-3;
   scene.load.duration = 0.4e-3;

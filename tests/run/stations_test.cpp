@@ -14,7 +14,8 @@ namespace {
 constexpr double bottom_pressure = 100e6;  // Pa
 
 scene::Scene scene_with(double cell_size) {
-  const auto file = scene::read_scene(LAUNCHSAFE_SOURCE_DIR "/studies/scene_155mm.toml");
+  const auto file =
+      scene::caught([&] { return scene::read_scene(LAUNCHSAFE_SOURCE_DIR "/studies/scene_155mm.toml"); });
   EXPECT_TRUE(file);
   scene::Scene scene = file->scene;
   scene.numerics.growth_x = 1.0;

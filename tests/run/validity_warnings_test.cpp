@@ -38,7 +38,7 @@ void expect_all(const std::vector<Judged>& launches) {
 TEST(ValidityWarnings, ASoundRunHasNone) {
   expect_all({{"as shipped", {}, [](auto&, auto&) {}},
               {"scaled inertia", {}, [](auto& scene, auto&) { scene.numerics.inertial_scaling = 16.0; }},
-              {"the extremes of sweep_pressure_defect.toml", {}, [](auto& scene, auto& run) {
+              {"beyond the extremes of sweep.toml", {}, [](auto& scene, auto& run) {
                  scene.load.peak = 700e6;
                  scene.charge().strength.initial_crack_radius = run.monitor[2].largest_crack_radius = 3e-3;
                }}});

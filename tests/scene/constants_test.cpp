@@ -42,14 +42,12 @@ body = [
 
 Scene scene_of(const std::string& text) {
   const auto read = parse_scene(text, "scene.toml");
-  EXPECT_TRUE(read) << read.error().message();
-  return read ? read->scene : Scene{};
+  return read.scene;
 }
 
 Scene with_other(const std::string& text) {
   const auto read = parse_scene(text, "scene.toml");
-  EXPECT_TRUE(read) << read.error().message();
-  return with_constants(*read, std::make_shared<Constants>(other_constants())).value().scene;
+  return with_constants(read, std::make_shared<Constants>(other_constants())).scene;
 }
 
 const Interface* held(const Scene& scene, const std::string& body) {
@@ -59,25 +57,25 @@ const Interface* held(const Scene& scene, const std::string& body) {
 
 TEST(Constants, TheShippedOnesAreThoseOfTheProgramsDefaults) {
   const Scene defaults;
-  for (const auto& [name, value] : shipped().values)
-    // The steel is the published one unless constants say otherwise.
-    if (const auto* key = find_key(scene_keys(), name); key != nullptr && name != "steel.yield_stress")
-      EXPECT_TRUE(same_value(key->get(defaults), value, 1e-5)) << name;
+  for (const auto& [name, value] : shipped().values) {
+    const auto* key = find_key(scene_keys(), name);
+    if (key == nullptr || name == "steel.yield_stress") continue;  // the steel is the published one
+    EXPECT_TRUE(same_value(key->get(defaults), value, 1e-5)) << name;
+  }
 }
 
 TEST(Constants, ReadBackWhatWasWritten) {
   const Constants other = other_constants();
   const auto read = parse_constants(to_toml(other), "other.toml");
-  ASSERT_TRUE(read) << read.error().message();
-  EXPECT_EQ(read->values, other.values);
-  EXPECT_EQ(read->fitted_keys, other.fitted_keys);
-  EXPECT_EQ(read->covariance, other.covariance);
-  EXPECT_EQ(read->range, other.range);
-  ASSERT_EQ(read->rows.size(), 2u);
-  EXPECT_DOUBLE_EQ(read->rows[0].misfit(), other.rows[0].misfit());
-  EXPECT_TRUE(read->rows[0].is_fitted);
-  EXPECT_FALSE(read->rows[1].is_fitted);
-  EXPECT_EQ(to_toml(read->scene), to_toml(other.scene));
+  EXPECT_EQ(read.values, other.values);
+  EXPECT_EQ(read.fitted_keys, other.fitted_keys);
+  EXPECT_EQ(read.covariance, other.covariance);
+  EXPECT_EQ(read.range, other.range);
+  ASSERT_EQ(read.rows.size(), 2u);
+  EXPECT_DOUBLE_EQ(read.rows[0].misfit(), other.rows[0].misfit());
+  EXPECT_TRUE(read.rows[0].is_fitted);
+  EXPECT_FALSE(read.rows[1].is_fitted);
+  EXPECT_EQ(to_toml(read.scene), to_toml(other.scene));
 }
 
 TEST(Constants, FillEveryKeyThatASceneDoesNotState) {
@@ -106,12 +104,6 @@ TEST(Constants, LeaveASteelThatABodyNames) {
   EXPECT_EQ(with_other(text).steel().strength.a, 792e6);
 }
 
-TEST(Constants, LeaveAMeasuredCurveAndAnotherShape) {
-  Constants other = other_constants();
-  const Scene scene = with_other(bodies + "load.shape = \"power-exponential\"\n");
-  EXPECT_EQ(scene.load.shape, LoadShape::power_exponential);
-}
-
 TEST(Constants, NoneLeavesTheProgramsDefaultsAndBondedFaces) {
   const Scene scene = scene_of("constants = \"none\"\n" + bodies);
   EXPECT_TRUE(scene.interfaces.empty());
@@ -130,7 +122,7 @@ TEST(Constants, AFaceIsThatOfTheBodyThatBearsOnIt) {
 }
 
 TEST(Constants, FaultsNameFileAndKey) {
-  const auto scene = parse_scene("constants = \"155m\"\n" + bodies, "scene.toml");
+  const auto scene = caught([&] { return parse_scene("constants = \"155m\"\n" + bodies, "scene.toml"); });
   ASSERT_FALSE(scene);
   EXPECT_EQ(scene.error().key, "constants");
   EXPECT_EQ(scene.error().line, 1);
@@ -138,7 +130,7 @@ TEST(Constants, FaultsNameFileAndKey) {
   std::string text = to_toml(shipped());
   const std::string version = fmt::format("model_version = {}", model_version);
   text.replace(text.find(version), version.size(), "model_version = 1");
-  const auto constants = parse_constants(text, "old.toml");
+  const auto constants = caught([&] { return parse_constants(text, "old.toml"); });
   ASSERT_FALSE(constants);
   EXPECT_EQ(constants.error().key, "model_version");
   EXPECT_EQ(constants.error().file, "old.toml");

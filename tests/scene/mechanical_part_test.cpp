@@ -34,7 +34,7 @@ KeyNames without(KeyNames names, const KeyNames& kept) {
 
 /// What a launch without snapshots, conduction and bulk reaction leaves out.
 const KeyNames most_dropped = names_in(
-    "title coupling load.expected_velocity load.obturation steel.conductivity steel.title "
+    "title coupling load.exit_decay load.expected_velocity steel.conductivity steel.title "
     "charge.specific_heat charge.conductivity kinetics.heat_of_reaction kinetics.frequency "
     "kinetics.activation_temperature "
     "kinetics.ignition_temperature kinetics.burnt_temperature charge.title elastic.density "
@@ -70,19 +70,22 @@ TEST(MechanicalPart, IsAValidSceneAndItsOwnMechanicalPart) {
   for (const auto& [name, file] : quick_scenes()) {
     const Scene part = mechanical_part(file.scene);
     const auto read = parse_scene(to_toml(part), "part.toml");
-    ASSERT_TRUE(read) << name << ": " << read.error().message();
-    EXPECT_EQ(to_toml(read->scene), to_toml(part)) << name;
+    EXPECT_EQ(to_toml(read.scene), to_toml(part)) << name;
     EXPECT_EQ(to_toml(mechanical_part(part)), to_toml(part)) << name;
-    EXPECT_EQ(make_plan(part).conduction.in, make_plan(file.scene).conduction.in);
-    EXPECT_EQ(make_plan(part).bulk_reaction.in, make_plan(file.scene).bulk_reaction.in);
+    EXPECT_EQ(make_plan(part).conducts, make_plan(file.scene).conducts);
+    EXPECT_EQ(make_plan(part).reacts, make_plan(file.scene).reacts);
   }
 }
 
 TEST(MechanicalPart, StatesWhatThePlanDecides) {
   const SceneFile automatic = quick_scenes().front().file;
   const Place place{"test", 1, 1};
-  const auto off = with_keys(automatic, {{"physics.conduction", std::string("off"), place}});
-  const auto on = with_keys(automatic, {{"physics.conduction", std::string("on"), place}});
+  const auto off = caught([&] {
+    return with_keys(automatic, {{"physics.conduction", std::string("off"), place}});
+  });
+  const auto on = caught([&] {
+    return with_keys(automatic, {{"physics.conduction", std::string("on"), place}});
+  });
   EXPECT_EQ(to_toml(mechanical_part(off->scene)), to_toml(mechanical_part(automatic.scene)));
   EXPECT_NE(to_toml(mechanical_part(on->scene)), to_toml(mechanical_part(off->scene)));
 }
@@ -92,7 +95,7 @@ TEST(MechanicalPart, KnowsACurveByItsValues) {
   for (const char* name : {"mechanical_part_a.csv", "mechanical_part_b.csv"})
     std::ofstream(folder + name) << "time_us,pressure_MPa\n0,0\n10,1000\n50,2000\n";
   const auto with_curve = [](const std::string& load) {
-    const auto file = parse_scene(quick_numerics + load + quick_scene, "scene.toml");
+    const auto file = caught([&] { return parse_scene(quick_numerics + load + quick_scene, "scene.toml"); });
     EXPECT_TRUE(file) << (file ? "" : file.error().message());
     return file ? to_toml(mechanical_part(file->scene)) : std::string{};
   };
@@ -110,12 +113,12 @@ TEST(MechanicalPart, HasNoSnapshotsOfIgnitionAndOfWhatFollows) {
   const Scene part = mechanical_part(scene);
   EXPECT_EQ(part.output.snapshot_times, std::vector{end_time(scene.load)});
   EXPECT_EQ(part.output.snapshot_events, std::vector{Event::peak_pressure});
-  EXPECT_TRUE(parse_scene(to_toml(part), "part.toml"));
+  EXPECT_TRUE(caught([&] { return parse_scene(to_toml(part), "part.toml"); }));
 }
 
 TEST(MechanicalPart, IsTheSameHoweverTheSceneIsWritten) {
   const auto part_of = [](const std::string& text) {
-    return to_toml(mechanical_part(parse_scene(text, "written.toml").value().scene));
+    return to_toml(mechanical_part(parse_scene(text, "written.toml").scene));
   };
   for (const auto& [from, to] : {std::pair{"\"1 ms\"", "\" +1.00e3 us\""},
                                  {"\"0, 0.01 cm\"", "[\"0 m\", \"1e-4 m\"]"},

@@ -10,10 +10,9 @@ namespace {
 
 TEST(Mesh, ChargeAndRadiusAreWholeNumbersOfCells) {
   auto file = read_scene(LAUNCHSAFE_SOURCE_DIR "/studies/scene_155mm.toml");
-  ASSERT_TRUE(file);
   for (const double size : {1e-3, 1.25e-3, 2.5e-3, 2.7e-3, 5e-3}) {
-    file->scene.numerics.cell_size = size;
-    const Mesh mesh = fit_mesh(file->scene);
+    file.scene.numerics.cell_size = size;
+    const Mesh mesh = fit_mesh(file.scene);
     EXPECT_LE(mesh.dx, size * (1 + 1e-8));
     EXPECT_LE(mesh.dr, size * (1 + 1e-8));
     EXPECT_NEAR(0.56 / mesh.dx, std::round(0.56 / mesh.dx), 1e-9);
@@ -69,6 +68,24 @@ TEST(Mesh, NamesTheChargeEdgeThatTheGridLinesMiss) {
   EXPECT_EQ(charge_edges_off_grid(scene), "");
   scene.numerics.cell_size = 1e-3;  // 77.5 mm make 78 cells, 65 mm 65.42
   EXPECT_NE(charge_edges_off_grid(scene).find("65.42"), std::string::npos);
+}
+
+TEST(LinesAtRest, OfTheEvenGridCoverTheShellFromTheChargeBottom) {
+  Scene scene = read_scene(LAUNCHSAFE_SOURCE_DIR "/studies/scene_155mm.toml").scene;
+  EXPECT_EQ(lines_at_rest(scene).x, grid_lines(scene).x);
+  scene.numerics.formulation = Formulation::updated_lagrangian;
+  const GridLines lines = lines_at_rest(scene);
+  const Mesh mesh = fit_mesh(scene);
+  for (std::size_t i = 0; i < lines.x.size(); ++i) {
+    const double cells = (lines.x[i] - mesh.x_anchor) / mesh.dx;
+    EXPECT_NEAR(cells, std::round(cells), 1e-9);
+  }
+  EXPECT_LE(lines.x.front(), 0.0);
+  EXPECT_GT(lines.x[1], 0.0);
+  EXPECT_GE(lines.x.back(), 0.74);
+  EXPECT_LT(lines.x[lines.x.size() - 2], 0.74);
+  EXPECT_EQ(lines.r.front(), 0.0);
+  EXPECT_EQ(lines.r.back(), 0.0775);
 }
 
 }  // namespace

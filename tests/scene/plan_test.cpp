@@ -13,79 +13,83 @@ namespace {
 
 Scene small() {
   const auto file = parse_scene(small_scene, "shell.toml");
-  EXPECT_TRUE(file) << file.error().message();
-  return file ? file->scene : Scene{};
+  return file.scene;
+}
+
+bool is_in(const Scene& scene, std::string_view member) {
+  const Plan plan = make_plan(scene);
+  return std::ranges::find(plan.terms, member, &Term::member)->in;
 }
 
 TEST(Plan, LeavesConductionOutBelowItsBound) {
   Scene scene = small();
   scene.load.duration = 18e-3;
   EXPECT_NEAR(diffusion_length(scene.charge(), end_time(scene.load)), 38.06e-6, 0.01e-6);
-  EXPECT_FALSE(make_plan(scene).conduction.in);
+  EXPECT_FALSE(is_in(scene, "conduction"));
   scene.physics.conduction = Switch::on;
-  EXPECT_TRUE(make_plan(scene).conduction.in);
+  EXPECT_TRUE(is_in(scene, "conduction"));
   scene.physics.conduction = Switch::off;
   const Plan plan = make_plan(scene);
-  EXPECT_FALSE(plan.conduction.in);
-  EXPECT_TRUE(plan.conduction.forced);
+  EXPECT_FALSE(is_in(scene, "conduction"));
+  EXPECT_FALSE(plan.conducts);
 }
 
 TEST(Plan, LeavesBulkReactionOutWhereTheChargeStaysCold) {
   Scene scene = small();
   EXPECT_GT(bulk_temperature_bound(scene), scene.initial_temperature);
-  EXPECT_FALSE(make_plan(scene).bulk_reaction.in);
+  EXPECT_FALSE(is_in(scene, "bulk_reaction"));
   scene.physics.bulk_reaction = Switch::on;
-  EXPECT_TRUE(make_plan(scene).bulk_reaction.in);
+  EXPECT_TRUE(is_in(scene, "bulk_reaction"));
   scene.physics.bulk_reaction = Switch::automatic;
   scene.initial_temperature = 480.0;
-  EXPECT_TRUE(make_plan(scene).bulk_reaction.in);
+  EXPECT_TRUE(is_in(scene, "bulk_reaction"));
 }
 
 TEST(Plan, HasAirOnlyWhereThereIsAGap) {
   Scene scene = small();
-  EXPECT_TRUE(make_plan(scene).air.in);
+  EXPECT_TRUE(is_in(scene, "air"));
   scene.surface.gaps = {0.0};
-  EXPECT_FALSE(make_plan(scene).air.in);
-  EXPECT_TRUE(make_plan(scene).surface.in);
+  EXPECT_FALSE(is_in(scene, "air"));
+  EXPECT_TRUE(is_in(scene, "surface"));
 }
 
 TEST(Plan, CracksNeedFlawsAndARadius) {
   Scene scene = small();
-  EXPECT_TRUE(make_plan(scene).cracks.in);
-  EXPECT_TRUE(make_plan(scene).crack_growth.in);
-  EXPECT_TRUE(make_plan(scene).crack_friction.in);
+  EXPECT_TRUE(is_in(scene, "cracks"));
+  EXPECT_TRUE(is_in(scene, "crack_growth"));
+  EXPECT_TRUE(is_in(scene, "crack_friction"));
   scene.charge().strength.face_friction = 0.0;
-  EXPECT_FALSE(make_plan(scene).crack_friction.in);
+  EXPECT_FALSE(is_in(scene, "crack_friction"));
   scene.charge().strength.growth = false;
-  EXPECT_FALSE(make_plan(scene).crack_growth.in);
-  EXPECT_TRUE(make_plan(scene).cracks.in);
+  EXPECT_FALSE(is_in(scene, "crack_growth"));
+  EXPECT_TRUE(is_in(scene, "cracks"));
   scene.charge().strength.flaw_size = 0.0;
-  EXPECT_FALSE(make_plan(scene).cracks.in);
+  EXPECT_FALSE(is_in(scene, "cracks"));
   scene = small();
   scene.charge().strength.initial_crack_radius = 0.0;
-  EXPECT_FALSE(make_plan(scene).cracks.in);
+  EXPECT_FALSE(is_in(scene, "cracks"));
 }
 
 TEST(Plan, SteelAloneHasNoSurface) {
   Scene scene = small();
   scene.bodies = {{"bar", "steel", 0.0, 0.1, 0.0, 0.01}};
   const Plan plan = make_plan(scene);
-  EXPECT_FALSE(plan.surface.in);
-  EXPECT_FALSE(plan.air.in);
-  EXPECT_FALSE(plan.cracks.in);
-  EXPECT_FALSE(plan.bulk_reaction.in);
+  EXPECT_FALSE(is_in(scene, "surface"));
+  EXPECT_FALSE(is_in(scene, "air"));
+  EXPECT_FALSE(is_in(scene, "cracks"));
+  EXPECT_FALSE(is_in(scene, "bulk_reaction"));
   ASSERT_EQ(plan.by_material.size(), 1U);
   EXPECT_EQ(plan.by_material[0].material, "steel");
 }
 
 TEST(Plan, TellsWhatARunThroughIgnitionAddsAndAtWhichCost) {
   Scene scene = small();
-  EXPECT_FALSE(make_plan(scene).coupling.in);
+  EXPECT_FALSE(is_in(scene, "coupling"));
   EXPECT_EQ(make_plan(scene).coupled_work, 0.0);
   scene.coupling = Coupling::two_way;
   scene.combustion.duration = 1e-3;
   const Plan plan = make_plan(scene);
-  EXPECT_TRUE(plan.coupling.in);
+  EXPECT_TRUE(is_in(scene, "coupling"));
   // A millisecond more of burning costs more than a millisecond of the launch.
   scene.combustion.duration = 2e-3;
   EXPECT_GT(make_plan(scene).coupled_work - plan.coupled_work, plan.work * 1e-3 / end_time(scene.load));
@@ -107,12 +111,6 @@ TEST(Plan, CountsParticlesAndStepsAsTheMeshDoes) {
   scene.numerics.selective_inertia = 1.0;
   scene.numerics.inertial_scaling = 16.0;
   EXPECT_NEAR(make_plan(scene).time_step, 4.0 * plan.time_step, 1e-15);
-  EXPECT_DOUBLE_EQ(predicted_time(plan, 1e6), static_cast<double>(plan.steps * plan.particles()) / 1e6);
-}
-
-TEST(Plan, HasAReasonForEveryTerm) {
-  const Plan plan = make_plan(small());
-  for (const NamedTerm& each : plan_terms) EXPECT_FALSE((plan.*each.term).reason.empty()) << each.title;
 }
 
 TEST(Plan, StepsThatCannotBeCountedAreNotTakenForFew) {
@@ -122,7 +120,6 @@ TEST(Plan, StepsThatCannotBeCountedAreNotTakenForFew) {
     const Plan plan = make_plan(scene);
     EXPECT_EQ(plan.steps, most_counted);
     EXPECT_GT(plan.work, 1e100);
-    EXPECT_GT(predicted_time(plan, 1e7), 1e90);
   }
 }
 

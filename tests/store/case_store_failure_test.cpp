@@ -1,11 +1,9 @@
-// What is left of a store when the disk is full or the process is killed.
+// What is left of a store when the disk is full or the process is killed, and who may write at the same time.
 #include "child_process.hpp"
-#include "launchsafe/store/file.hpp"
 #include "same_case.hpp"
 #include "store_fixture.hpp"
 
 #include <array>
-#include <chrono>
 #include <csignal>
 #include <random>
 #include <thread>
@@ -17,62 +15,44 @@ using namespace launchsafe::testing;
 
 class StoreFailure : public StoreFixture {
  protected:
-  /// Names in the folder of the cases that end so.
-  static std::size_t count_of(const std::filesystem::path& store, const std::string& ending) {
-    std::size_t count = 0;
-    for (const auto& entry : std::filesystem::directory_iterator(store / "cases"))
-      count += entry.path().filename().string().ends_with(ending) ? 1 : 0;
-    return count;
+  /// Half-written files in the folder of the cases.
+  std::ptrdiff_t leftovers() const {
+    const std::filesystem::directory_iterator entries(where() / "cases");
+    return std::ranges::count_if(
+        entries, [](const auto& entry) { return is_temporary(entry.path().filename().string()); });
   }
 };
 
 // --- a full disk ---
 
-struct Failures {
-  int calls = 0;
-  std::function<void(const Error&)> counter() {
-    return [this](const Error&) { ++calls; };
-  }
-};
-
 TEST_F(StoreFailure, AFullDiskIsReportedOnceAndSparesWhatWasThere) {
   fill(2);
   EXPECT_TRUE(holds_under_file_size_limit(4096, [&] {
-    Failures failures;
-    auto store = CaseStore::open(where(), "", failures.counter());
-    if (!store) return false;
-    for (int number = 2; number < 6; ++number) save(**store, number);
-    const MaybeError error = (*store)->flush();
-    save(**store, 6);
-    return error && error->kind == Error::Kind::write_failed && failures.calls == 1 &&
-           error->message.find(file_of(2).string()) != std::string::npos &&
-           (*store)->flush()->message == error->message && !(*store)->holds(identity_of(3).hash()) &&
-           !(*store)->record_of(identity_of(6).hash()) && (*store)->load(identity_of(1).hash());
+    int calls = 0;
+    const auto store = CaseStore::open(where(), [&](const Error&) { ++calls; });
+    for (int number = 2; number < 6; ++number) save(*store, number);
+    const auto error = store->flush();
+    return error && error->kind == Error::Kind::write_failed && calls == 1 &&
+           error->message.find(file_of(2).string()) != std::string::npos && !store->holds(hash_of(3)) &&
+           !store->record_of(hash_of(5)) && store->load(hash_of(1));
   }));
-  EXPECT_EQ(count_of(where(), ".partial"), 0U);
+  EXPECT_EQ(leftovers(), 0);
   const auto store = opened();
   EXPECT_EQ(store->records().size(), 2U);
-  for (int number = 0; number < 2; ++number)
-    expect_same(result_of(number), *store->load(identity_of(number).hash()));
+  for (int number = 0; number < 2; ++number) expect_same(result_of(number), *store->load(hash_of(number)));
 }
 
 TEST_F(StoreFailure, AResultsFileThatIsFullHurtsNoRowBefore) {
   constexpr int notes = 300;
   const auto note_all = [&](CaseStore& store) {
-    for (int number = 0; number < notes; ++number) {
-      RunRecord record = record_of(number);
-      record.hash = identity_of(number).hash();
-      record.state = CaseState::failed;
-      store.note(record);
-    }
+    for (int number = 0; number < notes; ++number) store.note(record_of(number, CaseState::failed));
   };
-  EXPECT_TRUE(holds_under_file_size_limit(30'000, [&] {
-    Failures failures;
-    auto store = CaseStore::open(where(), "", failures.counter());
-    if (!store) return false;
-    note_all(**store);
-    const MaybeError error = (*store)->flush();
-    return error && error->message.find("study.db") != std::string::npos && failures.calls == 1;
+  EXPECT_TRUE(holds_under_file_size_limit(40'000, [&] {
+    int calls = 0;
+    const auto store = CaseStore::open(where(), [&](const Error&) { ++calls; });
+    note_all(*store);
+    const auto error = store->flush();
+    return error && error->message.find("study.db") != std::string::npos && calls == 1;
   }));
   {
     const auto store = opened();
@@ -85,69 +65,102 @@ TEST_F(StoreFailure, AResultsFileThatIsFullHurtsNoRowBefore) {
 
 // --- a kill ---
 
-/// Saves until it is killed; says so once the first is on disk.
-[[noreturn]] void work_forever(const std::filesystem::path& folder, int first, int report) {
-  const auto store = CaseStore::open(folder);
-  if (!store) ::_exit(1);
-  for (int number = first;; ++number) {
-    save(**store, number);
-    if (number == first && ((*store)->flush() || ::write(report, "y", 1) != 1)) ::_exit(1);
+/// A process that saves cases, beginning with number `first`, until it is killed. Made when the first is on
+/// disk where `after_a_result`.
+class Worker {
+ public:
+  Worker(const std::filesystem::path& folder, int first, bool after_a_result = true) {
+    std::array<int, 2> report{};
+    if (::pipe(report.data()) != 0) return;
+    process_ = ::fork();
+    if (process_ == 0) work(folder, first, report[1]);
+    ::close(report[1]);
+    char sign = 0;
+    has_begun_ = !after_a_result || ::read(report[0], &sign, 1) == 1;
+    ::close(report[0]);
   }
-}
+  ~Worker() { kill(); }
+  Worker(const Worker&) = delete;
+  Worker& operator=(const Worker&) = delete;
 
-/// Starts such a process and kills it after `delay`, counted from its start or from its first result.
-void work_and_be_killed(const std::filesystem::path& folder, int first, std::chrono::microseconds delay,
-                        bool after_a_result) {
-  std::array<int, 2> report{};
-  ASSERT_EQ(::pipe(report.data()), 0);
-  const pid_t child = ::fork();
-  if (child == 0) work_forever(folder, first, report[1]);
-  ::close(report[1]);
-  char sign = 0;
-  if (after_a_result) {
-    EXPECT_EQ(::read(report[0], &sign, 1), 1);
+  void kill() {
+    if (process_ <= 0) return;
+    ::kill(process_, SIGKILL);
+    ::waitpid(process_, nullptr, 0);
+    process_ = 0;
   }
-  std::this_thread::sleep_for(delay);
-  ::kill(child, SIGKILL);
-  ::waitpid(child, nullptr, 0);
-  ::close(report[0]);
-}
+  bool has_begun() const { return has_begun_; }
+
+ private:
+  [[noreturn]] static void work(const std::filesystem::path& folder, int first, int report) try {
+    const auto store = CaseStore::open(folder);
+    store->tell_status({}, true);
+    for (int number = first;; ++number) {
+      save(*store, number);
+      if (number == first && (store->flush() || ::write(report, "y", 1) != 1)) ::_exit(1);
+    }
+  } catch (const Error&) {
+    ::_exit(1);
+  }
+
+  pid_t process_ = 0;
+  bool has_begun_ = false;
+};
 
 TEST_F(StoreFailure, AKillAtAnyInstantLosesOnlyWhatWasInFlight) {
-  constexpr int rounds = 40;
   std::mt19937 random(1);
   std::size_t known = 0;
-  for (int round = 0; round < rounds; ++round) {
+  for (int round = 0; round < 40; ++round) {
     const bool after_a_result = round % 4 != 0;
-    work_and_be_killed(where(), 1000 * round, std::chrono::microseconds(random() % 30'000), after_a_result);
-
+    Worker worker(where(), 1000 * round, after_a_result);
+    EXPECT_TRUE(worker.has_begun());
+    std::this_thread::sleep_for(std::chrono::microseconds(random() % 30'000));
+    worker.kill();
     const auto store = opened();
-    ASSERT_NE(store, nullptr) << "the lock of the dead clears itself";
-    EXPECT_EQ(count_of(where(), ".partial"), 0U) << "half-written files are gone";
-    const std::vector<RunRecord> entries = store->records();
-    EXPECT_GE(entries.size(), known + (after_a_result ? 1 : 0)) << "nothing is forgotten";
-    known = entries.size();
-    for (const RunRecord& entry : entries) {
-      ASSERT_TRUE(std::filesystem::exists(where() / "cases" / (entry.hash + ".h5")));
-      ASSERT_TRUE(store->holds(entry.hash));
-    }
-    for (std::size_t i = 0; i < entries.size(); i += 1 + entries.size() / 5)
-      EXPECT_TRUE(store->load(entries[i].hash));
+    EXPECT_EQ(leftovers(), 0) << "half-written files are gone";
+    const std::vector<RunRecord> records = store->records();
+    EXPECT_GE(records.size(), known + (after_a_result ? 1 : 0)) << "nothing is forgotten";
+    known = records.size();
+    for (const RunRecord& record : records) ASSERT_TRUE(store->holds(record.hash));
+    for (std::size_t i = 0; i < records.size(); i += 1 + records.size() / 5)
+      EXPECT_TRUE(store->load(records[i].hash));
+    EXPECT_EQ(store->remarks(), std::vector<std::string>{});
   }
-  const auto store = opened();
-  for (const auto& file : std::filesystem::directory_iterator(where() / "cases"))
-    EXPECT_TRUE(store->holds(file.path().stem())) << "a whole file is held, recorded or not";
-  EXPECT_EQ(store->remarks(), std::vector<std::string>{});
 }
 
-TEST_F(StoreFailure, LeftoversAreRemovedWhenNobodyElseWrites) {
-  std::filesystem::create_directories(where() / "cases");
-  const std::filesystem::path leftover = where() / "cases/.launchsafe.x.h5.01234567.partial";
-  ASSERT_FALSE(write_file_atomically(leftover, "half", IfExists::refuse));
-  opened("1-of-2");
-  EXPECT_TRUE(std::filesystem::exists(leftover)) << "its writer may be alive";
-  opened();
-  EXPECT_FALSE(std::filesystem::exists(leftover));
+// --- the lock ---
+
+TEST_F(StoreFailure, TheLockRefusesOthersUntilItsOwnerEndsOrIsKilled) {
+  Worker worker(where(), 0);
+  ASSERT_TRUE(worker.has_begun());
+  EXPECT_EQ(fault(), Error::Kind::conflict);
+  EXPECT_TRUE(status_in(where())->alive);
+  EXPECT_GE(CaseStore::open_to_read(where())->records().size(), 1U) << "who only looks may";
+  worker.kill();
+  EXPECT_FALSE(status_in(where())->alive);
+  const auto store = opened();
+  EXPECT_EQ(fault(), Error::Kind::conflict) << "also to the same process";
+  EXPECT_EQ(fault(), Error::Kind::conflict) << "and asking does not give it away";
+  EXPECT_FALSE(Worker(where(), 0).has_begun());
+}
+
+TEST_F(StoreFailure, AReaderNeedsNoRightToWrite) {
+  fill(2);
+  const auto permit = [this](unsigned mode) {
+    for (const auto& path : {where() / "cases", where(), folder()})
+      std::filesystem::permissions(path, std::filesystem::perms(mode));
+  };
+  permit(0555);
+  EXPECT_TRUE(holds_without_privileges([&] {
+    const auto reader = CaseStore::open_to_read(where());
+    return reader->records().size() == 2 && reader->holds(hash_of(1));
+  }));
+  permit(0755);
+}
+
+TEST_F(StoreFailure, AFolderThatCannotBeMadeIsAnError) {
+  write_file_atomically(where(), "a file", IfExists::replace);
+  EXPECT_EQ(fault(), Error::Kind::write_failed);
 }
 
 }  // namespace

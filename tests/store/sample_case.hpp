@@ -2,7 +2,6 @@
 #pragma once
 
 #include "launchsafe/run/case_result.hpp"
-#include "launchsafe/scene/scene.hpp"
 #include "launchsafe/store/case_file.hpp"
 
 #include <limits>
@@ -123,18 +122,11 @@ inline run::CaseResult sample_case() {
   return result;
 }
 
-inline scene::Scene sample_scene() {
-  scene::Scene scene;
-  scene.title = "155 mm shell";
-  scene.bodies = {{"wall", "steel", 0, 0.7, 0.065, 0.0775}, {"charge", "charge", 0.1, 0.6, 0, 0.065}};
-  scene.output.observation_points = {{"G1", 0.6, 0.0}};
-  return scene;
-}
-
-inline store::Manifest sample_manifest(const std::string& input = "title = \"155 mm shell\"\n") {
-  store::Manifest manifest = store::make_manifest(input, 2);
-  manifest.wall_time = 62.25;
-  return manifest;
+inline store::StoredCase sample_stored(run::CaseResult result = sample_case(),
+                                       const std::string& input = "title = \"155 mm shell\"\n") {
+  store::StoredCase stored{store::make_manifest(input), std::move(result)};
+  stored.manifest.wall_time = 62.25;
+  return stored;
 }
 
 }  // namespace launchsafe::testing

@@ -15,7 +15,7 @@
 namespace launchsafe::store {
 namespace {
 
-constexpr int polyline = 4, quadrilateral = 9;  // VTK_POLY_LINE, VTK_QUAD
+constexpr int quadrilateral = 9;  // VTK_QUAD
 
 class Xdmf : public testing::TemporaryFolder {
  protected:
@@ -37,16 +37,18 @@ class Xdmf : public testing::TemporaryFolder {
 };
 
 TEST_F(Xdmf, IsATimeSeriesOfCellsWithTheValuesOfTheCase) {
-  const auto file =
-      scene::parse_scene(testing::small_shell + testing::small_shell_base +
-                             "[interface.wall]\ncondition = \"sliding\"\nfriction = 0.05\n"
-                             "[load]\nduration = \"0.3 ms\"\npeak = \"200 MPa\"\npeak_time = \"0.2 ms\"\n"
-                             "[numerics]\ncell_size = \"2.5 mm\"\n[gap]\nthickness = \"0, 0.01 cm\"\n"
-                             "[output]\nsnapshots = \"0, 0.1 ms\"\nsnapshot_events = \"peak-pressure\"\n",
-                         "small.toml");
+  const auto file = scene::caught([&] {
+    return scene::parse_scene(
+        testing::small_shell + testing::small_shell_base +
+            "[interface.wall]\ncondition = \"sliding\"\nfriction = 0.05\n"
+            "[load]\nduration = \"0.3 ms\"\npeak = \"200 MPa\"\npeak_time = \"0.2 ms\"\n"
+            "[numerics]\ncell_size = \"2.5 mm\"\n[gap]\nthickness = \"0, 0.01 cm\"\n"
+            "[output]\nsnapshots = \"0, 0.1 ms\"\nsnapshot_events = \"peak-pressure\"\n",
+        "small.toml");
+  });
   ASSERT_TRUE(file) << file.error().message();
   const run::CaseResult result = run::run_case(file->scene);
-  ASSERT_FALSE(write_case_file(folder() / "case.h5", file->scene, result, make_manifest("", 1)));
+  write_case_file(folder() / "case.h5", {make_manifest(""), result});
   const nlohmann::json steps = read(folder() / "case.xdmf");
   const auto& snapshots = result.mechanics.snapshots;
   ASSERT_EQ(snapshots.size(), 3U);
@@ -63,14 +65,6 @@ TEST_F(Xdmf, IsATimeSeriesOfCellsWithTheValuesOfTheCase) {
     EXPECT_EQ(std::count(body.begin(), body.end(), 1.0), std::count(shot.body.begin(), shot.body.end(), 1));
     EXPECT_EQ(values(launch["cell_data"]["temperature"]), shot.temperature);
     EXPECT_EQ(values(launch["cell_data"]["pressure"]), shot.pressure);
-    const auto& bottom = grids.at("bottom of the charge");
-    EXPECT_EQ(bottom["cells"], shot.bottom_x.size() / 2);
-    EXPECT_EQ(bottom["cell_types"], nlohmann::json::array({polyline}));
-    EXPECT_EQ(values(bottom["cell_data"]["skin temperature, gap 0.01 cm"]), shot.skins[1].temperature);
-    const auto& wall = grids.at("face 1 towards wall");
-    EXPECT_EQ(values(wall["point_data"]["slip"]), shot.faces[0].slip);
-    EXPECT_EQ(values(wall["point_data"]["contact_pressure"]), shot.faces[0].pressure);
-    EXPECT_EQ(wall["cell_types"], nlohmann::json::array({polyline}));
   }
 }
 

@@ -3,8 +3,6 @@
 // and storing go through the list.
 #pragma once
 
-#include "launchsafe/keys/acts_on.hpp"
-
 #include <algorithm>
 #include <concepts>
 #include <cstddef>
@@ -20,6 +18,22 @@
 #include <vector>
 
 namespace launchsafe::keys {
+
+/// The part of a computation that another value of an input changes. A launch without bulk reaction,
+/// conduction, or stored temperatures (scene::mechanical_part) has mechanics that depend on fewer inputs.
+enum class ActsOn {
+  mechanics,   ///< the mechanical run
+  numerics,    ///< likewise, by its error alone
+  trace,       ///< the skin, and what the mechanical run traces for it
+  heat,        ///< the skin, and the mechanical run where temperatures of the charge matter to it
+  conduction,  ///< likewise, where heat is conducted
+  chemistry,   ///< likewise, where the bulk reacts
+  surface,     ///< the skin
+  combustion,  ///< what follows ignition
+  nothing      ///< no number that is computed
+};
+/// Whether a mechanical run may depend on an input, in some launch.
+constexpr bool reaches_mechanics(ActsOn acts_on) { return acts_on < ActsOn::surface; }
 
 /// The value of any key: number; flag; word, words ("a, b") or text; list or range.
 using Value = std::variant<double, bool, std::string, std::vector<double>>;
@@ -126,22 +140,18 @@ const Key<Owner>* find_key(const std::vector<Key<Owner>>& keys, std::string_view
   return find_named(keys, name);
 }
 
-namespace detail {
-
 template <class Named, class Member>
-struct OwnerOf {
+struct OwnerOfMember {
   using type = Named;
 };
 template <class Owner, class Part>
-struct OwnerOf<void, Part Owner::*> {
+struct OwnerOfMember<void, Part Owner::*> {
   using type = Owner;
 };
 
-}  // namespace detail
-
 /// The struct that a key is bound to: that of the pointer to its member, unless it is named.
 template <class Named, class Member>
-using OwnerOf = typename detail::OwnerOf<Named, Member>::type;
+using OwnerOf = typename OwnerOfMember<Named, Member>::type;
 /// The type of the bound member.
 template <class Named, class Member>
 using PartOf = std::remove_cvref_t<std::invoke_result_t<Member, OwnerOf<Named, Member>&>>;
@@ -162,53 +172,86 @@ inline KeyDescription description(std::string name, KeyKind kind, Standing stand
           .sentence = std::move(sentence)};
 }
 
-/// A key of that description: `assign(part, value)` fills the bound member, `read(part)` gives its value.
-template <class Owner, class Member, class Assign, class Read>
-Key<Owner> bound_key(KeyDescription described, Member member, Assign assign, Read read) {
+namespace detail {
+
+/// Fills a member of any type that a key can have, enumerations apart.
+template <class Part>
+void assign(Part& part, const Value& value) {
+  if constexpr (std::is_same_v<Part, bool>) {
+    part = std::get<bool>(value);
+  } else if constexpr (std::is_arithmetic_v<Part> || std::is_same_v<Part, std::optional<double>>) {
+    part = static_cast<Part>(std::get<double>(value));
+  } else if constexpr (std::is_assignable_v<Part&, const std::string&>) {
+    part = std::get<std::string>(value);
+  } else if constexpr (const auto& numbers = std::get<std::vector<double>>(value);
+                       requires { part.assign(numbers.begin(), numbers.end()); }) {
+    part.assign(numbers.begin(), numbers.end());
+  } else {
+    std::copy_n(numbers.begin(), std::min(numbers.size(), part.size()), part.begin());
+  }
+}
+
+/// The value of such a member; 0 of an optional number that is absent.
+template <class Part>
+Value value_of(const Part& part) {
+  if constexpr (std::is_same_v<Part, bool>)
+    return part;
+  else if constexpr (std::is_arithmetic_v<Part>)
+    return static_cast<double>(part);
+  else if constexpr (std::is_same_v<Part, std::optional<double>>)
+    return part.value_or(0.0);
+  else if constexpr (std::is_convertible_v<Part, std::string>)
+    return std::string(part);
+  else
+    return std::vector<double>(part.begin(), part.end());
+}
+
+/// A key of that description, bound to a member of one of these types.
+template <class Named, class Member>
+auto member_key(KeyDescription described, Member member) {
+  using Owner = OwnerOf<Named, Member>;
   Key<Owner> key{std::move(described)};
-  key.set = [member, assign](Owner& owner, const Value& value) { assign(std::invoke(member, owner), value); };
-  key.get = [member, read](const Owner& owner) { return Value(read(std::invoke(member, owner))); };
+  key.set = [member](Owner& owner, const Value& value) { assign(std::invoke(member, owner), value); };
+  key.get = [member](const Owner& owner) { return value_of(std::invoke(member, owner)); };
   return key;
 }
 
-/// A quantity, or a whole number if the dimension is `count`.
+}  // namespace detail
+
+/// A quantity, or a whole number if the dimension is `count`. A member that is an optional number has no
+/// default, and is written back only where it is stated.
 template <class Named = void, class Member>
 auto number_key(std::string name, Dimension dimension, Limits limits, Standing standing, std::string sentence,
                 Member member) {
-  using Number = PartOf<Named, Member>;
-  return bound_key<OwnerOf<Named, Member>>(
-      description(std::move(name), KeyKind::number, standing, std::move(sentence), dimension, limits), member,
-      [](Number& number, const Value& value) { number = static_cast<Number>(std::get<double>(value)); },
-      [](const Number& number) { return static_cast<double>(number); });
-}
-
-/// A quantity that may be absent: it has no default, and is written back only where it is stated.
-template <class Owner>
-Key<Owner> optional_number_key(std::string name, Dimension dimension, Limits limits, std::string sentence,
-                               std::optional<double> Owner::*member) {
-  auto key = bound_key<Owner>(
-      description(std::move(name), KeyKind::number, Standing::input, std::move(sentence), dimension, limits),
-      member, [](auto& number, const Value& value) { number = std::get<double>(value) + 0.0; },
-      [](const auto& number) { return number.value_or(0.0); });
-  key.is_written = [member](const Owner& owner) { return (owner.*member).has_value(); };
+  auto key = detail::member_key<Named>(
+      description(std::move(name), KeyKind::number, standing, std::move(sentence), dimension, limits),
+      member);
+  using Owner = OwnerOf<Named, Member>;
+  if constexpr (std::is_same_v<PartOf<Named, Member>, std::optional<double>>)
+    key.is_written = [member](const Owner& owner) { return std::invoke(member, owner).has_value(); };
   return key;
 }
 
 template <class Named = void, class Member>
 auto flag_key(std::string name, Standing standing, std::string sentence, Member member) {
-  return bound_key<OwnerOf<Named, Member>>(
-      description(std::move(name), KeyKind::flag, standing, std::move(sentence)), member,
-      [](bool& flag, const Value& value) { flag = std::get<bool>(value); }, [](bool flag) { return flag; });
+  return detail::member_key<Named>(description(std::move(name), KeyKind::flag, standing, std::move(sentence)),
+                                   member);
 }
 
 template <class Named = void, class Member>
 auto text_key(std::string name, Standing standing, std::string sentence, std::string example, Member member) {
   KeyDescription described = description(std::move(name), KeyKind::text, standing, std::move(sentence));
   described.example = std::move(example);
-  return bound_key<OwnerOf<Named, Member>>(
-      std::move(described), member,
-      [](auto& text, const Value& value) { text = std::get<std::string>(value); },
-      [](const auto& text) { return std::string(text); });
+  return detail::member_key<Named>(std::move(described), member);
+}
+
+/// Quantities of one dimension in a container that is assigned or, if its length is fixed, filled.
+template <class Named = void, class Member>
+auto list_key(std::string name, Dimension dimension, Limits limits, Standing standing, std::string sentence,
+              Member member, std::size_t fixed_length = 0) {
+  return detail::member_key<Named>(description(std::move(name), KeyKind::list, standing, std::move(sentence),
+                                               dimension, limits, fixed_length),
+                                   member);
 }
 
 /// One of several words, each standing for a value of the member's enumeration. The second parameter is that
@@ -216,20 +259,19 @@ auto text_key(std::string name, Standing standing, std::string sentence, std::st
 template <class Named = void, class = void, class Member>
 auto word_key(std::string name, Standing standing, std::string sentence,
               std::vector<std::pair<std::string, PartOf<Named, Member>>> words, Member member) {
-  using Enumeration = PartOf<Named, Member>;
-  KeyDescription described = description(std::move(name), KeyKind::word, standing, std::move(sentence));
-  for (const auto& word : words) described.words.push_back(word.first);
-  return bound_key<OwnerOf<Named, Member>>(
-      std::move(described), member,
-      [words](Enumeration& target, const Value& value) {
-        for (const auto& [word, meaning] : words)
-          if (word == std::get<std::string>(value)) target = meaning;
-      },
-      [words](const Enumeration& source) {
-        for (const auto& [word, meaning] : words)
-          if (meaning == source) return word;
-        return std::string{};
-      });
+  using Owner = OwnerOf<Named, Member>;
+  Key<Owner> key{description(std::move(name), KeyKind::word, standing, std::move(sentence))};
+  for (const auto& word : words) key.words.push_back(word.first);
+  key.set = [words, member](Owner& owner, const Value& value) {
+    for (const auto& [word, meaning] : words)
+      if (word == std::get<std::string>(value)) std::invoke(member, owner) = meaning;
+  };
+  key.get = [words, member](const Owner& owner) -> Value {
+    for (const auto& [word, meaning] : words)
+      if (meaning == std::invoke(member, owner)) return word;
+    return std::string{};
+  };
+  return key;
 }
 
 /// Some of a few words, none of them too, in the order in which these are given: each stands for the value of
@@ -237,44 +279,25 @@ auto word_key(std::string name, Standing standing, std::string sentence,
 template <class Named = void, class Member>
 auto words_key(std::string name, Standing standing, std::string sentence, std::vector<std::string> words,
                Member member) {
+  using Owner = OwnerOf<Named, Member>;
   using Enumeration = typename PartOf<Named, Member>::value_type;
-  KeyDescription described = description(std::move(name), KeyKind::words, standing, std::move(sentence));
-  described.words = words;
-  return bound_key<OwnerOf<Named, Member>>(
-      std::move(described), member,
-      [words](auto& target, const Value& value) {
-        target.clear();
-        const std::string list = ", " + std::get<std::string>(value) + ",";
-        for (std::size_t i = 0; i < words.size(); ++i)
-          if (list.find(" " + words[i] + ",") != std::string::npos)
-            target.push_back(static_cast<Enumeration>(i));
-      },
-      [words](const auto& source) {
-        std::string list;
-        for (std::size_t i = 0; i < words.size(); ++i)
-          if (std::ranges::count(source, static_cast<Enumeration>(i)) > 0)
-            list += (list.empty() ? "" : ", ") + words[i];
-        return list;
-      });
-}
-
-/// Quantities of one dimension in a container that is assigned or, if its length is fixed, filled.
-template <class Named = void, class Member>
-auto list_key(std::string name, Dimension dimension, Limits limits, Standing standing, std::string sentence,
-              Member member, std::size_t fixed_length = 0) {
-  return bound_key<OwnerOf<Named, Member>>(
-      description(std::move(name), KeyKind::list, standing, std::move(sentence), dimension, limits,
-                  fixed_length),
-      member,
-      [](auto& target, const Value& value) {
-        const auto& numbers = std::get<std::vector<double>>(value);
-        if constexpr (requires { target.assign(numbers.begin(), numbers.end()); }) {
-          target.assign(numbers.begin(), numbers.end());
-        } else {
-          std::copy_n(numbers.begin(), std::min(numbers.size(), target.size()), target.begin());
-        }
-      },
-      [](const auto& source) { return std::vector<double>(source.begin(), source.end()); });
+  Key<Owner> key{description(std::move(name), KeyKind::words, standing, std::move(sentence))};
+  key.words = words;
+  key.set = [words, member](Owner& owner, const Value& value) {
+    auto& target = std::invoke(member, owner);
+    target.clear();
+    const std::string list = ", " + std::get<std::string>(value) + ",";
+    for (std::size_t i = 0; i < words.size(); ++i)
+      if (list.find(" " + words[i] + ",") != std::string::npos) target.push_back(static_cast<Enumeration>(i));
+  };
+  key.get = [words, member](const Owner& owner) -> Value {
+    std::string list;
+    for (std::size_t i = 0; i < words.size(); ++i)
+      if (std::ranges::count(std::invoke(member, owner), static_cast<Enumeration>(i)) > 0)
+        list += (list.empty() ? "" : ", ") + words[i];
+    return list;
+  };
+  return key;
 }
 
 /// "a to b", bound to two members.
@@ -282,17 +305,17 @@ template <class Named = void, class Begin, class End>
 auto range_key(std::string name, Dimension dimension, Limits limits, Standing standing, std::string sentence,
                Begin begin, End end) {
   using Owner = OwnerOf<Named, Begin>;
-  return bound_key<Owner>(
-      description(std::move(name), KeyKind::range, standing, std::move(sentence), dimension, limits, 2),
-      std::identity{},
-      [begin, end](Owner& owner, const Value& value) {
-        const auto& numbers = std::get<std::vector<double>>(value);
-        std::invoke(begin, owner) = numbers[0];
-        std::invoke(end, owner) = numbers[1];
-      },
-      [begin, end](const Owner& owner) {
-        return std::vector<double>{std::invoke(begin, owner), std::invoke(end, owner)};
-      });
+  Key<Owner> key{
+      description(std::move(name), KeyKind::range, standing, std::move(sentence), dimension, limits, 2)};
+  key.set = [begin, end](Owner& owner, const Value& value) {
+    const auto& numbers = std::get<std::vector<double>>(value);
+    std::invoke(begin, owner) = numbers[0];
+    std::invoke(end, owner) = numbers[1];
+  };
+  key.get = [begin, end](const Owner& owner) -> Value {
+    return std::vector<double>{std::invoke(begin, owner), std::invoke(end, owner)};
+  };
+  return key;
 }
 
 /// The keys of a part as keys of the whole that holds it, their names and those that they override under a
@@ -348,42 +371,36 @@ Key<Owner> operator|(Key<Owner> key, const Change& change) {
 inline auto required() {
   return [](KeyDescription& key) { key.required = true; };
 }
-
 /// Its default follows from others; whoever reads the file sets it.
 inline auto usually(std::string words) {
-  return [words = std::move(words)](KeyDescription& key) { key.usual = words; };
+  return [words](KeyDescription& key) { key.usual = words; };
 }
-
 /// Another value changes that part of a computation.
 inline auto acting_on(ActsOn part) {
   return [part](KeyDescription& key) { key.acts_on = part; };
 }
-
+/// It takes back earlier values of others that would contradict it.
+inline auto overriding(std::vector<std::string> others) {
+  return [others](KeyDescription& key) { key.overrides = others; };
+}
+/// Of a list: it may also be [].
+inline auto may_be_empty() {
+  return [](KeyDescription& key) { key.may_be_empty = true; };
+}
+/// It is written back only where a condition on its owner holds.
+template <class Condition>
+auto written_where(Condition condition) {
+  return [condition]<class Owner>(Key<Owner>& key) { key.is_written = condition; };
+}
 /// Something that follows from it is done to its owner after it is set.
 template <class Consequence>
 auto then(Consequence consequence) {
   return [consequence]<class Owner>(Key<Owner>& key) {
-    key.set = [set = std::move(key.set), consequence](Owner& owner, const Value& value) {
+    key.set = [set = key.set, consequence](Owner& owner, const Value& value) {
       set(owner, value);
       consequence(owner);
     };
   };
-}
-
-/// It takes back earlier values of others that would contradict it.
-inline auto overriding(std::vector<std::string> others) {
-  return [others = std::move(others)](KeyDescription& key) { key.overrides = others; };
-}
-
-/// It is written back only where a condition on its owner holds.
-template <class Condition>
-auto written_where(Condition condition) {
-  return [condition = std::move(condition)]<class Owner>(Key<Owner>& key) { key.is_written = condition; };
-}
-
-/// Of a list: it may also be [].
-inline auto may_be_empty() {
-  return [](KeyDescription& key) { key.may_be_empty = true; };
 }
 
 }  // namespace launchsafe::keys

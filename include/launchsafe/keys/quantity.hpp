@@ -32,12 +32,17 @@ inline constexpr Unit kelvin_per_centimetre{Dimension::number, "K/cm"};
 /// `text` is no number; fixed and scientific have so many digits after the point, significant so many in all.
 enum class Notation { text, fixed, scientific, significant };
 
+/// Towards which side a value is rounded for people: a lower bound down, an upper one and what is uncertain
+/// up.
+enum class Rounding { nearest, down, up };
+
 /// How a value is shown.
 struct Form {
   Notation notation = Notation::text;
   int digits = 0;
   Dimension dimension = Dimension::number;
   std::string unit = {};
+  Rounding rounding = Rounding::nearest;
 };
 
 inline Form text() { return {}; }
@@ -51,6 +56,14 @@ inline Form significant(int digits, Unit unit = {}) {
   return {Notation::significant, digits, unit.dimension, std::string(unit.name)};
 }
 inline Form count() { return fixed(0); }
+inline Form down(Form form) {
+  form.rounding = Rounding::down;
+  return form;
+}
+inline Form up(Form form) {
+  form.rounding = Rounding::up;
+  return form;
+}
 
 /// Who reads a quantity: people text and Markdown, programs CSV and JSON.
 enum class Audience { everyone, people, programs };

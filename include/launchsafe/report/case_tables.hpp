@@ -1,8 +1,7 @@
 // What single cases came to, as tables: their runs, and what followed ignition.
 #pragma once
 
-#include "launchsafe/report/plot.hpp"
-#include "launchsafe/report/table.hpp"
+#include "launchsafe/report/report.hpp"
 #include "launchsafe/run/case_result.hpp"
 #include "launchsafe/study/study_file.hpp"
 
@@ -33,23 +32,8 @@ Table combustion_table(const run::CaseResult& result);
 struct DrawnCase {
   const scene::Scene& scene;
   const run::CaseResult& result;
-  /// s, of fields and profiles. Without any: every snapshot, and profiles at six times that divide the run
-  /// evenly.
+  /// s, of fields and profiles. Without any: every snapshot, and the profile at the end.
   std::vector<double> times = {};
-};
-
-/// A picture and the name of its file, which follows from what it shows.
-struct CasePicture {
-  std::string file;  ///< "field_temperature_10ms.svg"
-  Drawing plot;
-  std::optional<double> time = {};  ///< s, of a field
-  std::optional<double> gap = {};   ///< m, of what belongs to one gap
-};
-
-/// What a kind of pictures shows, as numbers, and the name of their file: "field_10ms.csv".
-struct CaseTable {
-  std::string file;
-  Table table;
 };
 
 struct PictureKind {
@@ -58,10 +42,9 @@ struct PictureKind {
   /// What a case has not that this kind needs; empty where it can be drawn.
   std::string (*lacks)(const DrawnCase&);
   /// Only where nothing is lacking.
-  std::vector<CasePicture> (*pictures)(const DrawnCase&);
-  /// Likewise; null where there are none. One of the pressures, of every gap's skin, or of every snapshot: a
-  /// row a particle.
-  std::vector<CaseTable> (*tables)(const DrawnCase&) = nullptr;
+  std::vector<Picture> (*pictures)(const DrawnCase&);
+  /// Likewise, of the pressures or of every gap's skin; null where there are none.
+  std::vector<ReportTable> (*tables)(const DrawnCase&) = nullptr;
 };
 
 /// All of them, in the order in which they are drawn.

@@ -145,8 +145,7 @@ std::string to_gnuplot(const Plot& plot);
 std::string to_gnuplot(const CellPlot& plot);
 
 /// The picture. Points that are not finite, or not positive on a logarithmic axis, are gaps. Errors: missing
-/// (there is no such program), failed (a series whose x and y differ in length, nothing to draw, gnuplot's
-/// own complaint).
+/// (there is no such program), failed (nothing to draw, gnuplot's own complaint).
 store::Result<std::string> to_svg(const Drawing& drawing, const DrawingLimits& limits = {},
                                   const std::string& program = "gnuplot");
 
@@ -164,10 +163,6 @@ std::string coordinate(double value, Scale scale);
 
 /// What begins the commands of a picture of this size in pixels.
 std::string page_commands(double width, double height);
-
-/// Why a plot cannot be drawn; empty where it can.
-std::string unfit(const Plot& plot);
-std::string unfit(const CellPlot& plot);
 
 /// Data and settings, and the parts of the plot command in the order in which they are drawn.
 struct Commands {

@@ -14,11 +14,10 @@ inline std::string milliseconds(double time) { return in_words(time, keys::signi
 
 namespace launchsafe::report::quantity {
 
-using keys::fixed, keys::scientific, keys::significant, keys::text;
+using keys::down, keys::fixed, keys::scientific, keys::significant, keys::text, keys::up;
 
 // Of a case.
 inline const Column case_name{"case", "case", text(), "The case, by what tells it from the others."};
-inline const Column variant{"variant", "variant", text(), "The variant of the study."};
 inline const Column peak_pressure{"peak_pressure", "p max", significant(6, megapascal),
                                   "Peak pressure of the load."};
 inline const Column crack_radius{"crack_radius", "c(0)", significant(6, micrometre),
@@ -47,8 +46,10 @@ inline Column temperature_early(double early_time) {
 }
 
 // Of verdicts.
+inline const Column margin =
+    always({"margin", "margin", down(fixed(2, kelvin)), "Ignition temperature less T max."});
 inline const Column uncertainty{
-    "uncertainty", "uncertainty", significant(2, kelvin),
+    "uncertainty", "uncertainty", up(significant(2, kelvin)),
     "Uncertainty of T max: the bounds of the critical gap by the slope of T max over the gap."};
 inline const Column verdict{"verdict", "verdict", text(),
                             "SAFE, UNSAFE or INDETERMINATE; only SAFE promises anything."};
@@ -79,6 +80,14 @@ inline const Column critical_gap_kind{
     "value, all-safe, all-ignite, several-crossings (the number is the first), or unknown."};
 inline const Column critical_gap_reads_as{"critical_gap_reads_as", "critical gap", text(),
                                           "The critical gap in words."};
+inline const Column lower_bound{"critical_gap_at_least", "at least", down(significant(3, centimetre)),
+                                "Lower bound of the critical gap: gaps below it are SAFE."};
+inline const Column upper_bound{"critical_gap_at_most", "at most", up(significant(3, centimetre)),
+                                "Upper bound of the critical gap."};
+inline const Column shorter{"shorter", "shorter by", up(significant(2, centimetre)),
+                            "By how much the cause may shorten the critical gap."};
+inline const Column longer{"longer", "longer by", up(significant(2, centimetre)),
+                           "By how much the cause may lengthen the critical gap."};
 
 // Of runs.
 inline const Column status{"status", "run", text(), "How the mechanical run ended."};
@@ -91,7 +100,6 @@ inline const Column limiters{"limiters", "limiters (particle steps)", text(),
                              "How often bounds within the laws acted."};
 inline const Column processor_time{"processor_time", "processor time", significant(3, second),
                                    "Processor time of the run."};
-inline const Column memory{"memory", "memory", fixed(1, megabyte), "Memory that the run takes, as planned."};
 inline const Column wall_time{"wall_time", "wall time", fixed(1, second), "Wall time of the run."};
 
 inline Column time(int decimals) {
@@ -115,15 +123,6 @@ inline const Column bottom_pressure_max{"bottom_pressure_max", "p max", signific
 inline const Column combustion_residual{
     "combustion_energy_residual", "energy residual", scientific(1),
     "Heat that burning made or lost, as a share of the heat of what burnt."};
-
-// Of calibrated constants.
-inline const Column closure{"closure", "closure", text(), "Friction closure."};
-inline const Column localisation{"localisation", "localisation", significant(6),
-                                 "Localisation of the heat of friction."};
-inline const Column exchange_time{"exchange_time", "exchange time", significant(6, millisecond),
-                                  "Exchange time between air and skin."};
-inline const Column ignition_temperature{"ignition_temperature", "T1", fixed(2, kelvin),
-                                         "Ignition temperature."};
 
 // Of what tables say in units of the row.
 inline const Column output{"output", "output", text(), "The output that the row is about."};

@@ -21,8 +21,6 @@ ShownKey shown(const study::Axis& axis);
 std::vector<ShownKey> shown_axes(const study::Study& study);
 /// What the axes of a study are in a case, of its coordinates.
 Quantities<std::vector<double>> axis_quantities(const study::Study& study);
-/// Peak pressure, crack radius and flaw size, which every launch has, and what else varies.
-Quantities<std::vector<double>> launch_quantities(const study::StudyFile& study);
 
 /// "400, 450, 496 MPa"; long lists by their ends and their number.
 std::string values_text(const ShownKey& key, const std::vector<double>& si_values);
@@ -50,8 +48,6 @@ Row kinetics_json(const scene::SceneFile& file);
 bool varies(const study::Study& study, const std::string& key);
 /// "re-used 3 mechanical runs, ran 12 ...": runs, rate, wall time.
 std::string timing_text(const study::Timing& timing);
-/// That as a sentence of a report.
-std::string timing_sentence(const study::Timing& timing);
 nlohmann::ordered_json timing_json(const study::Timing& timing);
 /// "crack bound 12, tension cut-off 3", or "none".
 std::string limiters_text(const run::LimiterCounts& limiters);
@@ -74,18 +70,13 @@ struct JudgedGap {
 /// Columns of a gap: temperatures, uncertainty, verdict, ignition, energy of the air.
 Quantities<JudgedGap> verdict_quantities(const study::Study& study);
 
-/// Columns of a critical gap: kind, number, words.
-Quantities<study::CriticalGap> critical_gap_quantities();
+/// The columns of a gap, with the gap itself, that are the same in all studies.
+std::vector<Column> verdict_columns();
+/// The reason of a verdict without what the study accepts, which stands beside the case.
+std::string rule_in(const std::string& reason);
+
 /// Columns of a case: the critical gap with its bounds, basis, warnings, and what is accepted.
 Quantities<study::CaseRow> case_quantities();
-
-/// A case with its name.
-struct NamedCase {
-  std::string label;
-  const study::CaseRow* row;
-};
-/// A row for every cause that makes the critical gap of a case uncertain.
-Table cause_table(const std::vector<NamedCase>& cases);
 
 /// Notes for every page with verdicts: numerics stated by hand, no other models, no expected velocity, a
 /// charge off the grid lines, and what `acceptances_to_write` returns. `rows`: of the study's cases; none for
@@ -98,13 +89,8 @@ std::vector<std::string> acceptances_to_write(const std::vector<study::CaseRow>&
 /// A note on the stations over which temperatures are averaged.
 std::string station_note(const study::StudyFile& study);
 
-/// Whether constants were fitted to a published number of a gap (m); null: no constants.
-study::Use use_of(const std::shared_ptr<const scene::Constants>& constants, double gap, double published);
-
 /// The number of a critical gap, m; NaN where the search found no ignition or nothing.
 double value_of(const study::CriticalGap& gap);
-/// The critical gap of a case between its bounds, cm; nothing where it is no value or a bound is not known.
-std::optional<Measured> measured_gap(const study::CaseRow& of_case);
 /// "0.039 ± 0.010 cm"; `reads_as` where the bounds are not known.
 std::string measured_text(const study::CaseRow& of_case);
 /// "0.0395 cm", "> 1 cm", "ignites without a gap", "several, the first at 0.0395 cm", "unknown".
@@ -113,28 +99,21 @@ std::string reads_as(const study::CriticalGap& gap);
 /// On what the absolute value of a critical gap rests.
 std::string friction_remark(const study::StudyFile& study);
 
-// --- how far a study is, from what its writers tell in their status files ---
+// --- how far a study is ---
 
-/// What a writer tells of its progress: members of its status file.
-Row progress_row(const study::Progress& progress);
-
-/// The same as a line of a terminal.
+/// A line of a terminal.
 std::string progress_line(const study::Progress& progress, std::time_t now);
-
-/// The local time of day, such as "05:40"; with the day before it where that is another one than now's.
-std::string clock_time(std::time_t time, std::time_t now);
 
 /// When the local clock shows "06:00" next after `now`, s since the epoch; nothing for what is no time of
 /// day.
 std::optional<std::time_t> next_clock_time(const std::string& text, std::time_t now);
 
-/// What the snapshots of a study, at least one, say at a time: its state, cases, times, and a row for every
-/// writer. A writer that neither lives nor told its end was killed. `folder` is how it is called. Values that
-/// a damaged file lacks are 0.
-Row status_facts(const std::string& folder, const std::vector<store::StoreStatus>& snapshots,
-                 std::time_t now);
+/// State (running, finished, interrupted or failed), cases, time left and exit code of the studies in
+/// folders, and as `exit_code` the largest. A study whose writer neither lives nor came to its end was
+/// interrupted.
+Row status_facts(const std::map<std::string, store::StudyStatus>& studies, std::time_t now);
 
-/// These facts for a terminal.
-std::string status_text(const Row& facts);
+/// These facts for a terminal, a line a folder.
+std::string status_text(const Row& facts, std::time_t now);
 
 }  // namespace launchsafe::report

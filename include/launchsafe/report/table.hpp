@@ -28,51 +28,24 @@ double round_distance(double least);
 /// A duration in seconds for people: "0.3 s", "42 s", "3 min 05 s", "2 h 14 min", "3 d 04 h".
 std::string duration(double seconds);
 
-/// Bytes of the shortest text that, where it is the same in all rows of a table, is said once beside them.
-constexpr std::size_t shortest_shared_sentence = 60;
-
 /// "1 case", "3 cases".
 std::string counted(std::int64_t count, std::string_view noun);
 
 /// Columns that a UTF-8 text takes in a terminal, with one for every code point but combining ones.
 std::size_t display_width(std::string_view text);
 
-// A value with its uncertainty in digits that mean something. Rounding never makes an allowed gap larger or
-// an uncertainty smaller.
+/// `value` with so many digits after the point (of tens, hundreds, ... where negative) towards one side. A
+/// decimal number of that many digits stays itself.
+double rounded(double value, int decimals, keys::Rounding side);
 
-/// Digits after the point with which an uncertainty (> 0) is told: two significant digits. At least 0.
-int decimals_for(double uncertainty);
+/// "0.039 ± 0.010 cm", or "0.039 +0.010 −0.012 cm" where the two differ: a value between its bounds with two
+/// digits of the larger uncertainty. The value is rounded down and the uncertainty up, so that neither bound
+/// comes nearer. Empty where a bound is not known, or where both are the value.
+std::string between_bounds(double value, double at_least, double at_most, const std::string& unit);
 
-/// `value` cut to so many digits after the point, towards minus infinity; what is a decimal number already
-/// stays. Never above `value` by more than round-off.
-double rounded_down(double value, int decimals);
-/// Likewise towards plus infinity.
-double rounded_up(double value, int decimals);
-
-/// As it is printed.
-struct Measured {
-  double value = 0;            ///< rounded down
-  double minus = 0, plus = 0;  ///< rounded up
-  int decimals = 0;
-  double lower() const { return value - minus; }
-  double upper() const { return value + plus; }
-  /// "0.039 ± 0.010 cm", or "0.039 +0.010 −0.012 cm" where the two differ.
-  std::string text(const std::string& unit) const;
-};
-
-/// A value that may be smaller by `minus` and larger by `plus` (both finite, >= 0, not both 0).
-Measured measured(double value, double minus, double plus);
-
-/// A critical gap between its bounds, all in cm. Nothing where one of them is not known.
-std::optional<Measured> measured_gap(double value, double at_least, double at_most);
-
-/// `value` rounded down with so many decimals, as text: what is allowed. Never "-0.0".
-std::string allowed_text(double value, int decimals);
-/// `value` rounded up to so many significant digits, as text: what is uncertain. 0 stays 0.
-std::string uncertain_text(double value, int digits = 2);
-
-using keys::always, keys::Audience, keys::Cell, keys::count, keys::for_people, keys::for_programs, keys::Form,
-    keys::headed, keys::known, keys::named, keys::Notation, keys::of_part, keys::Quantities, keys::Quantity;
+using keys::always, keys::Audience, keys::Cell, keys::count, keys::down, keys::for_people, keys::for_programs,
+    keys::Form, keys::headed, keys::known, keys::named, keys::Notation, keys::of_part, keys::Quantities,
+    keys::Quantity, keys::Rounding, keys::up;
 using keys::centimetre, keys::cubic_centimetre, keys::gram, keys::kelvin, keys::kelvin_per_centimetre,
     keys::kilojoule, keys::kilojoule_per_area, keys::megabyte, keys::megapascal, keys::micrometre,
     keys::millimetre, keys::millisecond, keys::per_second, keys::percent, keys::second;
@@ -94,19 +67,12 @@ Table for_programs(const Table& table);
 double shown_value(double value_si, const Form& form);
 /// A cell in SI in the unit of its column.
 Cell shown_cell(Cell cell_si, const Column& column);
+/// A value in the unit of a form as people read it, rounded as the form says.
+std::string shown_digits(double value, const Form& form);
 /// A value in SI as people read it within a sentence: "0.0381 cm".
 std::string in_words(double value_si, const Form& form);
 /// The same without the unit.
 std::string digits_of(double value_si, const Form& form);
-
-/// A row in the units of its quantities.
-template <class Row>
-std::vector<Cell> cells_of(const Quantities<Row>& quantities, const Row& row) {
-  std::vector<Cell> cells;
-  cells.reserve(quantities.size());
-  for (const Quantity<Row>& each : quantities) cells.push_back(shown_cell(each.value(row), each));
-  return cells;
-}
 
 /// A table with a column for every quantity.
 template <class Row>
@@ -114,14 +80,17 @@ Table table_of(std::string title, const Quantities<Row>& quantities, const std::
                std::vector<std::string> notes = {}) {
   Table table{std::move(title), keys::described(quantities), {}, std::move(notes)};
   table.rows.reserve(rows.size());
-  for (const Row& row : rows) table.rows.push_back(cells_of(quantities, row));
+  for (const Row& row : rows) {
+    auto& cells = table.rows.emplace_back();
+    for (const Quantity<Row>& each : quantities) cells.push_back(shown_cell(each.value(row), each));
+  }
   return table;
 }
 
 /// Text in which nothing is markup to GitHub's Markdown.
 std::string markdown_escaped(const std::string& text);
 
-/// The keys of all columns, all different.
+/// The keys of all columns.
 std::vector<std::string> keys_of(const Table& table);
 
 /// For a terminal: title, header, rule, rows; numbers rounded as the columns say. Of a table that is wider
@@ -131,6 +100,9 @@ std::string to_text(const Table& table, std::size_t width = 0);
 
 /// GitHub's Markdown. Whatever would be markup in a cell is escaped.
 std::string to_markdown(const Table& table);
+
+/// An HTML table of the id "ID-table", without its notes. A verdict is the class of its cell too.
+std::string to_html(const Table& table, const std::string& id);
 
 /// RFC 4180: a header of keys, lines ending in CR LF, quotes where needed, numbers exact, NaN as "NaN",
 /// nothing as "".

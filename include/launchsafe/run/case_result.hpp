@@ -19,10 +19,9 @@ struct Stored {
   const char* name;
   Member member;
   const char* unit;  ///< "1" of pure numbers, "none" of text; values in memory are in SI
-  const char* meaning;
 };
 template <class Member>
-Stored(const char*, Member, const char*, const char*) -> Stored<Member>;
+Stored(const char*, Member, const char*) -> Stored<Member>;
 
 /// How a mechanical run ended. Everything but `completed` makes every verdict on it indeterminate.
 enum class RunStatus {
@@ -41,26 +40,26 @@ std::string to_string(RunStatus status);
 
 /// The terms of the energy balance, of the whole shell.
 inline constexpr std::array energy_terms{
-    Stored{"kinetic_energy", &EnergyBalance::kinetic, "J",
-           "kinetic energy relative to the frame, with the scaled inertia"},
-    Stored{"internal_energy", &EnergyBalance::internal, "J", "integrated stress power"},
-    Stored{"external_work", &EnergyBalance::external, "J", "work of the chamber pressure"},
-    Stored{"body_force_work", &EnergyBalance::body_force, "J",
-           "work of the accelerating frame's body force"},  // of a frame that moves along
-    Stored{"damping_loss", &EnergyBalance::damping, "J",
-           "taken out by damping and the PIC share"},  // and FLIP's filter
-    Stored{"contact_loss", &EnergyBalance::contact, "J",
-           "taken out by friction between bodies and where their faces meet"},
-    Stored{"plastic_dissipation", &EnergyBalance::plastic, "J", "dissipated in steel"},
-    Stored{"viscous_dissipation", &EnergyBalance::viscous, "J",
-           "dissipated in the charge's Maxwell elements"},
-    Stored{"crack_dissipation", &EnergyBalance::crack, "J", "dissipated by crack growth"},
-    Stored{"hourglass", &EnergyBalance::hourglass, "J",
-           "stored against hourglassing, part of the internal energy"},
-    Stored{"charge_work", &EnergyBalance::charge_work, "J",
-           "integrated stress power of the charge, part of the internal energy"},
-    Stored{"charge_friction", &EnergyBalance::charge_friction, "J",
-           "friction heat of the charge with localisation 1, of its total strain; no part of the balance"},
+    Stored{"kinetic_energy", &EnergyBalance::kinetic,
+           "J"},  // kinetic energy relative to the frame, with the scaled inertia
+    Stored{"internal_energy", &EnergyBalance::internal, "J"},  // integrated stress power
+    Stored{"external_work", &EnergyBalance::external, "J"},    // work of the chamber pressure
+    Stored{"body_force_work", &EnergyBalance::body_force,
+           "J"},                                           // work of the accelerating frame's body force
+    Stored{"damping_loss", &EnergyBalance::damping, "J"},  // taken out by damping and the PIC share
+    Stored{"contact_loss", &EnergyBalance::contact,
+           "J"},  // taken out by friction between bodies and where their faces meet
+    Stored{"plastic_dissipation", &EnergyBalance::plastic, "J"},  // dissipated in steel
+    Stored{"viscous_dissipation", &EnergyBalance::viscous,
+           "J"},                                              // dissipated in the charge's Maxwell elements
+    Stored{"crack_dissipation", &EnergyBalance::crack, "J"},  // dissipated by crack growth
+    Stored{"hourglass", &EnergyBalance::hourglass,
+           "J"},  // stored against hourglassing, part of the internal energy
+    Stored{"charge_work", &EnergyBalance::charge_work,
+           "J"},  // integrated stress power of the charge, part of the internal energy
+    Stored{
+        "charge_friction", &EnergyBalance::charge_friction,
+        "J"},  // friction heat of the charge with localisation 1, of its total strain; no part of the balance
 };
 
 /// Elastic energy (J) that the bodies would hold under a hundredth of the load's peak, or of an atmosphere
@@ -155,14 +154,9 @@ struct Limiter : Stored<std::uint64_t LimiterCounts::*> {
   const char* words;  ///< for people
 };
 inline constexpr std::array limiters{
-    Limiter{
-        {"crack_at_bound", &LimiterCounts::crack_at_bound, "1", "particles whose crack reached its bound"},
-        "crack bound"},
-    Limiter{
-        {"tension_cutoff", &LimiterCounts::tension_cutoff, "1", "particles that reached the tension cut-off"},
-        "tension cut-off"},
-    Limiter{{"hugoniot_guard", &LimiterCounts::hugoniot_guard, "1", "particles at the guarded Hugoniot pole"},
-            "Hugoniot guard"}};
+    Limiter{{"crack_at_bound", &LimiterCounts::crack_at_bound, "1"}, "crack bound"},
+    Limiter{{"tension_cutoff", &LimiterCounts::tension_cutoff, "1"}, "tension cut-off"},
+    Limiter{{"hugoniot_guard", &LimiterCounts::hugoniot_guard, "1"}, "Hugoniot guard"}};
 static_assert(sizeof(LimiterCounts) == limiters.size() * sizeof(std::uint64_t));
 
 /// "crack bound 12, tension cut-off 3"; empty where none acted.
@@ -180,6 +174,10 @@ void add_mass(std::vector<MaterialMass>& masses, const std::string& material, do
 struct InterfaceResult {
   std::string body;
   double overlap = 0;  ///< m, the largest by which the faces passed into each other
+};
+inline constexpr std::tuple stored_interface{
+    Stored{"body", &InterfaceResult::body, "none"},     // the body that touches the charge
+    Stored{"overlap", &InterfaceResult::overlap, "m"},  // largest by which the faces passed into each other
 };
 
 /// Plastic strain of steel beyond which a wall counts as yielded: that of the proof stress Rp0.2.
@@ -236,20 +234,19 @@ struct CombustionHistory {
   std::size_t samples() const { return time.size(); }
 };
 inline constexpr std::tuple stored_combustion{
-    Stored{"end", &CombustionHistory::end, "none", "why the run ended"},
-    Stored{"reason", &CombustionHistory::reason, "none", "why it broke off"},
-    Stored{"energy_drift", &CombustionHistory::energy_drift, "1", "largest energy drift of the run"},
-    Stored{"wall_time", &CombustionHistory::wall_time, "s", "wall time of the run"},
-    Stored{"energy_residual", &CombustionHistory::energy_residual, "1",
-           "largest energy made or lost over the heat of reaction of what had burnt"},
-    Stored{"time", &CombustionHistory::time, "s", "time"},
-    Stored{"burnt_mass", &CombustionHistory::burnt_mass, "kg", "mass of the gas"},
-    Stored{"gas_volume", &CombustionHistory::gas_volume, "m3", "volume of the gas"},
-    Stored{"gas_temperature", &CombustionHistory::gas_temperature, "K", "mean over the gas's mass"},
-    Stored{"pressure", &CombustionHistory::pressure, "Pa", "mean over the bottom"},
-    Stored{"released", &CombustionHistory::released, "J", "heat of reaction released"},
-    Stored{"brought", &CombustionHistory::brought, "J",
-           "heat above the initial temperature that the burnt part had before"},
+    Stored{"reason", &CombustionHistory::reason, "none"},           // why it broke off
+    Stored{"energy_drift", &CombustionHistory::energy_drift, "1"},  // largest energy drift of the run
+    Stored{"wall_time", &CombustionHistory::wall_time, "s"},        // wall time of the run
+    Stored{"energy_residual", &CombustionHistory::energy_residual,
+           "1"},  // largest energy made or lost over the heat of reaction of what had burnt
+    Stored{"time", &CombustionHistory::time, "s"},                        // time
+    Stored{"burnt_mass", &CombustionHistory::burnt_mass, "kg"},           // mass of the gas
+    Stored{"gas_volume", &CombustionHistory::gas_volume, "m3"},           // volume of the gas
+    Stored{"gas_temperature", &CombustionHistory::gas_temperature, "K"},  // mean over the gas's mass
+    Stored{"pressure", &CombustionHistory::pressure, "Pa"},               // mean over the bottom
+    Stored{"released", &CombustionHistory::released, "J"},                // heat of reaction released
+    Stored{"brought", &CombustionHistory::brought,
+           "J"},  // heat above the initial temperature that the burnt part had before
 };
 
 /// One gap of a case.

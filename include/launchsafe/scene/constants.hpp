@@ -48,9 +48,9 @@ const std::vector<std::shared_ptr<const Constants>>& shipped_constants();
 /// Name of the constants of scenes that name none, and of those that take none at all.
 inline constexpr const char *default_constants = "155mm", *no_constants = "none";
 
-/// Reads a constants file from text; `file` is named in errors. Refused are another model version, unknown
-/// keys, and values that the keys cannot have.
-Expected<Constants> parse_constants(const std::string& text, const std::string& file);
+/// Reads a constants file from text; `file` is named in errors. Throws an InputError for another model
+/// version, an unknown key, and a value that its key cannot have.
+Constants parse_constants(const std::string& text, const std::string& file);
 std::string to_toml(const Constants& constants);
 
 /// An interval of the inputs of a launch in which constants hold.
@@ -91,7 +91,7 @@ std::shared_ptr<const Constants> find_constants(const std::string& name, const s
                                                 const Place& place, const std::string& key);
 
 /// The scene of a file with other constants; null: with none.
-Expected<SceneFile> with_constants(const SceneFile& file, std::shared_ptr<const Constants> constants);
+SceneFile with_constants(const SceneFile& file, std::shared_ptr<const Constants> constants);
 
 /// A key of constants as the key of a scene: "interface.side.friction" is "interface.wall.friction" where a
 /// body `wall` bears on the charge's side. Empty where the scene has no such body.

@@ -1,8 +1,6 @@
-// What is wrong with an input, as a value: where, what was found, what is allowed, and what was perhaps
-// meant.
+// What is wrong with an input: the one exception that readers throw, and the words in it.
 #pragma once
 
-#include <cstddef>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -24,13 +22,9 @@ struct InputError {
   std::string suggestion;     ///< what was perhaps meant, ready to be copied
   bool file_missing = false;  ///< there is no such file, so that nothing was found in it
 
-  /// One line of limited length: "scene.toml:12:3: charge.crack_radius: found ...; allowed: ...; did you mean
-  /// ...?"
+  /// "scene.toml:12:3: charge.crack_radius: found ...; allowed: ...; did you mean ...?" on one line.
   std::string message() const;
 };
-
-/// A fault, if there is one.
-using Fault = std::optional<InputError>;
 
 /// A value, or the reason why there is none.
 template <class T, class Error = InputError>
@@ -41,29 +35,24 @@ class Expected {
 
   bool has_value() const { return content_.index() == 0; }
   explicit operator bool() const { return has_value(); }
-
-  /// Only where has_value().
-  T& value() { return *std::get_if<0>(&content_); }
-  const T& value() const { return *std::get_if<0>(&content_); }
-  T& operator*() { return value(); }
-  const T& operator*() const { return value(); }
-  T* operator->() { return &value(); }
-  const T* operator->() const { return &value(); }
-
-  /// Only where !has_value().
+  /// The value, where there is one.
+  T& operator*() { return *std::get_if<0>(&content_); }
+  const T& operator*() const { return *std::get_if<0>(&content_); }
+  T* operator->() { return &**this; }
+  const T* operator->() const { return &**this; }
+  /// The reason, where there is no value.
   const Error& error() const { return *std::get_if<1>(&content_); }
-
-  /// The value; throws the error where there is none. For readers, see `caught`.
+  /// The value; throws the error where there is none.
   T or_throw() && {
-    if (!has_value()) throw error();
-    return std::move(value());
+    if (!*this) throw error();
+    return std::move(**this);
   }
 
  private:
   std::variant<T, Error> content_;
 };
 
-/// What a reader of many steps gives, or the InputError that it throws: its first fault.
+/// What a reader gives, or the InputError that it throws.
 template <class Read>
 Expected<std::invoke_result_t<Read>> caught(Read&& read) {
   try {
@@ -72,16 +61,13 @@ Expected<std::invoke_result_t<Read>> caught(Read&& read) {
     return error;
   }
 }
-/// Bytes that a message quotes of a part of an InputError. What is allowed may be a list of many keys.
-inline constexpr std::size_t longest_quoted = 240, longest_allowed_quoted = 4000, longest_file_quoted = 1000;
 
-/// A text as a message quotes it: on one line, control characters as escapes; of more than `longest` bytes
-/// the first.
+/// A text as a message quotes it: on one line, with control characters as escapes; of a long one the first
+/// bytes, at most `longest`.
 std::string quotable(std::string_view text, std::size_t longest);
 
 /// The candidate nearest to `word` in letters changed, added, dropped or swapped. Empty if none is near (more
-/// than a third of the letters differ, or more than two of them) or several are equally near. Words of
-/// hundreds of letters are near to none.
+/// than a third of the letters differ, or more than two of them) or several are equally near.
 std::string nearest_of(std::string_view word, const std::vector<std::string>& candidates);
 
 /// "a, b and 3 more": the first ones of several names.

@@ -9,8 +9,7 @@
 
 namespace launchsafe::scene {
 
-// --- measured chamber pressure from a CSV file: two columns under a header that names the units; and from
-// what a pressure gauge recorded to a curve that a scene takes: its offset and the start of the launch ---
+// --- measured chamber pressure from a CSV file; from what a gauge recorded to a curve that a scene takes ---
 
 /// Pa; no load may be larger, whether it comes from a file or stands in a scene.
 inline constexpr double largest_load = 10e9;
@@ -25,21 +24,14 @@ struct PressureCurve {
 };
 
 /// Reads at least two points under a header such as "time_ms,pressure_MPa", "Time (ms);Pressure (bar)" or
-/// "t [s]<tab>p [psi]". Columns may stand in either order. What separates them in the header, a semicolon, a
-/// tab or else a comma, separates them everywhere. Cells may be in quotation marks. Between semicolons or
-/// tabs, or in quotation marks, numbers may have decimal commas, then all of them. Lines that start with #
-/// are left out; lines end with LF, CRLF or CR; a byte-order mark of UTF-8 is passed over. At most
-/// `largest_curve` bytes. A peak that takes more than 0.1 s to rise is an error.
-Expected<PressureCurve> read_pressure_curve(const std::filesystem::path& file);
+/// "t [s]<tab>p [psi]", the columns in either order. The header's separator, a semicolon, a tab or else a
+/// comma, separates all lines; where it is no comma, numbers may have decimal commas. Lines that start with #
+/// are left out; `file` is named in errors. Throws an InputError.
+PressureCurve parse_pressure_curve(const std::string& text, const std::string& file);
 
-/// The same from text; `file` is only named in errors.
-Expected<PressureCurve> parse_pressure_curve(const std::string& text, const std::string& file);
-
-/// Like `parse_pressure_curve`, of a record as a gauge writes it: further columns are left out, and pressures
-/// may be negative, down to -`largest_load`. `column`: name of the pressure's column in the header without
-/// its unit; empty: the only one that is a pressure.
-Expected<PressureCurve> parse_gauge_record(const std::string& text, const std::string& file,
-                                           const std::string& column);
+/// The same of a record as a gauge writes it: further columns are left out, and pressures may be negative.
+/// `column`: name of the pressure's column without its unit; empty: the only one that is a pressure.
+PressureCurve parse_gauge_record(const std::string& text, const std::string& file, const std::string& column);
 
 /// What the user says of a record; what is absent is found in it.
 struct GaugeCleaning {
@@ -60,16 +52,11 @@ struct CleanedRecord {
   double peak = 0.0, peak_time = 0.0;  ///< Pa and s, of the curve
 };
 
-/// Takes the offset away, lets time begin at the trigger, and sets pressures below zero to 0. Noise stays:
-/// what an average takes from a load counts as uncertainty where the scene averages (load.smoothing).
-///
-/// The offset is the median of the points before the rise, which is where 2 % of the range is last passed
-/// before the largest pressure; without at least ten such points it has to be given. The trigger is 1 % of
-/// the peak. Errors, in the sense of the record: no quiet points and no offset; an offset that differs from
-/// that of the quiet points by more than a thousandth of the peak; a trigger that is never passed; a pressure
-/// further below zero than 5 % of the peak.
-Expected<CleanedRecord> clean(const PressureCurve& record, const GaugeCleaning& cleaning,
-                              const std::string& file);
+/// Takes the offset away, lets time begin at the trigger, and sets pressures below zero to 0. The offset is
+/// the median of the points before the rise, of which there have to be ten unless it is given; the trigger
+/// is 1 % of the peak. Throws an InputError for a stated offset that those points contradict by more than a
+/// thousandth of the peak, a trigger that is never passed, and a pressure further below zero than 5 % of it.
+CleanedRecord clean(const PressureCurve& record, const GaugeCleaning& cleaning, const std::string& file);
 
 /// The curve as a CSV file that scenes take, with `remarks` (lines) above the header.
 std::string csv_of(const PressureCurve& curve, const std::string& remarks);
@@ -84,6 +71,7 @@ struct ChamberFace {
   BodySide side = BodySide::x_end;
   double begin = 0, end = 0;  ///< m: radii of a face across x, places along x of a side
 
+  bool operator==(const ChamberFace&) const = default;
   bool across_x() const { return side == BodySide::x_begin || side == BodySide::x_end; }
   /// Of the force of a pressure on it, along x or r.
   double direction() const { return side == BodySide::x_end || side == BodySide::r_end ? -1.0 : 1.0; }
@@ -92,18 +80,14 @@ struct ChamberFace {
 struct Chamber {
   std::vector<ChamberFace> faces;  ///< in the order of the bodies, each from its begin on
   double band = 0;                 ///< m, base-side end of the annulus of full radius that seals the chamber
-  /// What the drawing leaves open, for people, and files are refused for; empty where it is clear. Otherwise
-  /// the rearmost faces alone are loaded.
-  std::string unclear;
+  bool sealed = false;             ///< what is drawn seals it; otherwise the rearmost faces alone are loaded
 };
 
 /// Gas fills what is open towards the base, and what lies between the barrel and a shell of less than the
 /// full radius behind the band. The band is at `Load::obturation`, or at the foremost annulus of full radius.
-/// What has the full radius lies against the barrel. Nothing without bodies.
+/// A chamber is not sealed where gas passes the band or reaches the charge, nor where the updated-Lagrangian
+/// form, which loads the rearmost faces alone, would have to load others. Nothing without bodies.
 Chamber chamber_of(const Scene& scene);
-
-/// Whether the chamber pressure acts on the rearmost faces alone, as on a flat base of full radius.
-bool acts_on_rear_alone(const Scene& scene, const Chamber& chamber);
 
 /// For people: area and force along x at a pressure (Pa), and how much that is of pi R^2 p.
 std::string chamber_text(const Scene& scene, double pressure);
@@ -119,41 +103,30 @@ inline constexpr double share_when_over = 0.01;
 /// else the time after the peak from which an analytic load is below `share_when_over`, or the last point of
 /// a measured curve.
 double launch_end(const Load& load);
-
 /// Pressure over the base, as a share of that at the peak, that is left at a time (s). The base of a measured
 /// curve is 0.
 double share_left(const Load& load, double time);
-
-/// Travel of the projectile as one rigid body over its diameter.
-double calibres_of(const Scene& scene, const RigidMotion& motion);
-
 /// Whether the simulation ends before the launch is over.
 bool is_cut_short(const Load& load);
-
 /// The same load in a barrel without end.
 Load without_exit(Load load);
+
 /// For people: "796 m/s after 5.26 m of travel, at 18 ms with 12.5 % of the peak pressure"; empty without an
 /// exit.
 std::string exit_text(const Scene& scene);
-/// For people: "799 m/s after 6.2 m of travel, at 19.3 ms, where 1 % of the peak pressure is left".
+/// The same of the end of the simulation.
 std::string end_text(const Scene& scene);
 /// The launch in a sentence, of the exit, or of the end where there is none: "The shot leaves the barrel with
 /// 796 m/s ..."
 std::string launch_sentence(const Scene& scene);
 
-// --- what smoothing takes from a measured curve ---
-
-/// The shortest window of smoothing, as a share of the curve's length: averages over shorter ones would be
-/// round-off, and no curve has points so near to each other.
-inline constexpr double least_smoothing_share = 1e-6;
+// --- what smoothing and sampling take from a measured curve ---
 
 /// Share of the largest pressure of a measured curve that its smoothing takes away; 0 without smoothing.
 double peak_lost_to_smoothing(const Load& load);
-
 /// Share of the largest point of a measured curve by which the peak beside it may be higher: a pulse that
 /// bends one way there lies below the chords beside. 0 for fewer than four points, of which nothing follows.
 double peak_missed_between_points(const Load& load);
-
 /// For people: what smoothing takes from the peak of a measured curve; empty without smoothing.
 std::string smoothing_text(const Load& load);
 

@@ -8,18 +8,18 @@ namespace launchsafe::scene {
 // --- how the grid is fitted to the shell, and how many particles a body gets. Pure arithmetic: the plan
 // counts with it and the mechanics builds with it, so both speak of the same mesh ---
 
-/// Cells of the even grid of the updated-Lagrangian form. An axial grid line runs through `x_anchor` and a
-/// radial one through r = 0 and r = radius.
+/// Cells of the even grid of the updated-Lagrangian form, none larger than the nominal cell size: the charge
+/// (without one, the whole scene) is a whole number of them long, the outer radius a whole number wide.
 struct Mesh {
-  double dx = 0;        ///< axial cell length, m, at most the nominal cell size
-  double dr = 0;        ///< radial cell length, m, at most the nominal cell size
-  double x_anchor = 0;  ///< the charge bottom; without a charge the base of the scene, m
-  double radius = 0;    ///< outer radius of the scene, m, a whole number of radial cells
+  double dx = 0, dr = 0;  ///< cell lengths, m
+  double x_anchor = 0;    ///< a grid line: the charge bottom; without a charge the base of the scene, m
+  double radius = 0;      ///< a grid line: outer radius of the scene, m
 };
+/// Needs at least one body and a cell size > 0.
+Mesh fit_mesh(const Scene& scene);
 
 /// Places in increasing order, m, each once: those closer than the tolerance are one.
 std::vector<double> distinct(std::vector<double> places, double tolerance);
-
 /// Index of the line next to a place, m.
 std::size_t nearest_line(const std::vector<double>& lines, double place);
 
@@ -27,54 +27,37 @@ std::size_t nearest_line(const std::vector<double>& lines, double place);
 struct GridLines {
   std::vector<double> x, r;
 };
-
 /// The reference grid of the total-Lagrangian form: lines through all edges of all bodies, and between two
 /// neighbouring edges cells whose length follows `numerics`: `cell_size` at the refined lines, growing away
 /// from them by the ratio `growth_x` or `growth_r` from cell to cell up to `largest_cell`, along r no further
 /// than a station of the charge's bottom is wide, so that every one has a cell. An interval gets the smallest
 /// whole number of cells that keeps them from being longer than that.
 GridLines grid_lines(const Scene& scene);
-
 /// The lines of the grid over the shell at rest, whichever the form: those of `grid_lines`, or of the even
 /// grid, from the last one at or before the shell to the first one at or behind it.
 GridLines lines_at_rest(const Scene& scene);
-
 /// Edges of the particles of one body: total-Lagrangian the grid's lines, updated-Lagrangian an even
-/// division, each cut into `particles_per_cell`.
+/// division, each cut into `particles_per_cell`. They tile the body exactly.
 GridLines particle_edges(const Scene& scene, const Body& body);
 
-/// Particles of one body in each direction, each at least 1. They tile the body exactly, whatever the grid.
+/// Smallest whole number of parts no longer than `part` that make up `length`; at least 1. A part that
+/// divides the length up to a relative 1e-9 counts as dividing it.
+int parts_of(double length, double part);
+
+/// Counts beyond this are not told apart: no computation of so many parts or steps is within reach.
+inline constexpr std::int64_t most_counted = 1'000'000'000'000'000;
+/// A count (>= 0) as a whole number; most_counted where it is larger, infinite or no number.
+std::int64_t counted(double count);
+
+/// Particles of one body in each direction, each at least 1.
 struct ParticleCount {
   int nx = 0;
   int nr = 0;
   std::int64_t total() const { return static_cast<std::int64_t>(nx) * nr; }
 };
-
-/// Counts beyond this are not told apart: no computation of so many parts or steps is within reach.
-inline constexpr std::int64_t most_counted = 1'000'000'000'000'000;
-
-/// A count (>= 0) as a whole number; most_counted where it is larger, infinite or no number.
-std::int64_t counted(double count);
-
-/// Smallest whole number of parts no longer than `part` that make up `length`; at least 1. A part that
-/// divides the length up to a relative 1e-9 counts as dividing it.
-/// Extents are at most 10 m and cells at least 10 µm, so that the number is far below 2^31.
-int parts_of(double length, double part);
-
-/// The charge (without one, the whole scene) is a whole number of cells long and the outer radius a whole
-/// number of cells wide, none larger than `scene.numerics.cell_size`. Needs at least one body and a cell size
-/// > 0.
-Mesh fit_mesh(const Scene& scene);
-
-/// Radial edges of charge bodies that lie off the grid lines, for a message ("r = 6.5 cm at 65.42 cells");
-/// empty where the grid runs along all of them. Off grid lines charge and wall share cells, which changes the
-/// friction heat beside the wall by a share that refinement does not remove: constants calibrated on a grid
-/// that fits do not carry over.
-std::string charge_edges_off_grid(const Scene& scene);
-
-/// Particles of one body with `particles_per_cell` >= 1 in each direction: of the lattice's cells in it or,
-/// in the updated-Lagrangian form, the body's length over the cell's, rounded up.
 ParticleCount particles_of(const Scene& scene, const Body& body);
+/// Particles of all bodies.
+std::int64_t particle_count(const Scene& scene);
 
 /// Cells of the scene's grid, and the lengths of the shortest ones in each direction, m.
 struct CellRange {
@@ -88,25 +71,16 @@ CellRange cells_of(const Scene& scene, const Body& body);
 /// Of the part in the charge, which stands for how fine a computation is; of all without a charge.
 CellRange cells_of_charge(const Scene& scene);
 
-/// How large a mesh is, from one look at its grid.
-struct MeshSize {
-  CellRange all;                        ///< as `cells_of` the scene
-  std::vector<CellRange> cells;         ///< as `cells_of` every body, in their order
-  std::vector<std::int64_t> particles;  ///< of every body
-};
-MeshSize mesh_size(const Scene& scene);
+/// Radial edges of charge bodies that lie off the lines of an even grid, for a message ("r = 6.5 cm at 65.42
+/// cells"); empty where the grid runs along all of them. Off grid lines charge and wall share cells, which
+/// changes the friction heat beside the wall by a share that refinement does not remove.
+std::string charge_edges_off_grid(const Scene& scene);
 
-/// Particles of all bodies.
-std::int64_t particle_count(const Scene& scene);
-
-// Stations: the parts of the charge's bottom over which pressure and strain are averaged.
-
-/// A box at the charge's bottom, m.
+/// A station, a box at the charge's bottom over which pressure and strain are averaged, m.
 struct StationExtent {
   std::string name;  ///< "S1", "S2", ... from the largest radius inwards
   double x_begin = 0, x_end = 0, r_begin = 0, r_end = 0;
 };
-
 /// Stations that tile the charge's bottom: of equal width, the bottom's over the nearest whole number to
 /// `surface.station_width` (at least one), and as deep as `surface.station_depth`. Of the published shell
 /// they are 5 mm wide and have the published points in their middles. None without a charge.
@@ -123,13 +97,12 @@ StationCells cells_in_stations(const Scene& scene);
 // --- which physics a scene needs, and why the rest is left out: decided from the scene's own numbers before
 // anything runs ---
 
-/// One term of the physics, in or out.
+/// One term of the physics, in or out, in the order in which people read them.
 struct Term {
+  std::string_view title, member;  ///< names for people and for programs
   bool in = false;
   bool forced = false;  ///< the user decided, not the plan
-  std::string reason;   ///< with the numbers it rests on
-  double value = 0;     ///< what was compared, in the unit that `reason` names
-  double bound = 0;     ///< with what
+  std::string reason;   ///< the numbers that it rests on
 };
 
 /// How many particles the bodies of one material have.
@@ -140,17 +113,10 @@ struct MaterialParticles {
 
 /// What a case will allocate and execute.
 struct Plan {
-  Term conduction;        ///< grid heat conduction; value and bound: diffusion length over cell size
-  Term bulk_reaction;     ///< Arrhenius heat in the bulk; value and bound: K of self-heating over the run
-  Term air;               ///< the air of the gaps; value: largest gap, m
-  Term cracks;            ///< crack strain in the charge; value: crack radius over flaw size
-  Term crack_growth;      ///< value: largest growth speed, m/s
-  Term crack_friction;    ///< friction of crack faces raises the toughness; value: coefficient
-  Term surface;           ///< skin temperatures of the charge bottom; value: number of gaps
-  Term friction_heat;     ///< value: localisation
-  Term inertial_scaling;  ///< value: the factor
-  Term coupling;          ///< runs on through ignition; value: s of combustion
-  Term snapshots;         ///< value: their number
+  std::vector<Term> terms;
+  bool conducts = false;  ///< heat conduction on the grid
+  bool reacts = false;    ///< Arrhenius heat in the bulk
+  bool couples = false;   ///< a run goes on through ignition
 
   std::vector<MaterialParticles> by_material;  ///< of the materials that bodies are made of
   std::int64_t particles() const;
@@ -166,25 +132,6 @@ struct Plan {
   double coupled_work = 0;
   double memory = 0;  ///< bytes of particles and grid, estimated
 };
-
-/// A term under the names that people and programs read, in the order in which they do.
-struct NamedTerm {
-  std::string_view title, member;
-  Term Plan::*term;
-};
-inline constexpr std::array<NamedTerm, 11> plan_terms{{
-    {"skin of the bottom", "surface", &Plan::surface},
-    {"air in the gap", "air", &Plan::air},
-    {"friction heat", "friction_heat", &Plan::friction_heat},
-    {"cracks", "cracks", &Plan::cracks},
-    {"crack growth", "crack_growth", &Plan::crack_growth},
-    {"crack friction", "crack_friction", &Plan::crack_friction},
-    {"heat conduction", "conduction", &Plan::conduction},
-    {"bulk reaction", "bulk_reaction", &Plan::bulk_reaction},
-    {"inertial scaling", "inertial_scaling", &Plan::inertial_scaling},
-    {"coupling", "coupling", &Plan::coupling},
-    {"snapshots", "snapshots", &Plan::snapshots},
-}};
 
 /// Longitudinal sound speed at rest (m/s), sqrt((K + 4/3 G)/rho).
 double longitudinal_speed(const materials::Law& law);
@@ -206,9 +153,6 @@ double bulk_temperature_bound(const Scene& scene);
 
 Plan make_plan(const Scene& scene);
 
-/// Seconds of wall time at an update rate (particle updates per second, > 0).
-double predicted_time(const Plan& plan, double update_rate);
-
 // Which launches take longer steps, with more inertia where a cell needs it, and how fast a load changes.
 
 /// Largest pressures (Pa) by which a load rises and falls within a time window (s); before 0 it is none.
@@ -222,9 +166,8 @@ LargestChanges largest_changes(const Load& load, double window);
 /// Time (s) that sound takes through the charge, along its longest side.
 double transit_time(const Scene& scene);
 
-/// Whether the load changes too fast for selective inertia: by more than 80 % of its peak within 0.5 ms, or
-/// the time that sound takes 2.5 times through a longer charge. What it does to temperatures was measured for
-/// slower loads.
+/// Whether the load changes too fast for selective inertia, whose effect was measured for slower loads: by
+/// more than 80 % of its peak within 0.5 ms, or the time that sound takes 2.5 times through a longer charge.
 bool changes_too_fast_for_selective_inertia(const Scene& scene);
 
 /// The `numerics.selective_inertia` of a launch that states none: 4, a quarter of the steps, where that was

@@ -10,8 +10,6 @@
 
 namespace launchsafe::scene {
 
-struct LoadInBarrel;
-
 enum class Barrel { rigid, none };
 /// auto: the plan decides from the scene's own numbers.
 enum class Switch { automatic, on, off };
@@ -61,27 +59,17 @@ struct Load {
   bool rescale_to_peak = false;        ///< scale the measured curve, smoothed, so that its maximum is `peak`
   double smoothing = 0.0;              ///< s; window over which a measured curve is averaged, 0 = as measured
   std::optional<double> muzzle_exit;   ///< s, when the shot leaves the barrel
-  std::optional<double> muzzle_travel;  ///< m, after which it does; beside `muzzle_exit` only a check of it
+  std::optional<double> muzzle_travel;  ///< m, after which it does: `muzzle_exit` follows from it
   double exit_decay = 1e-4;             ///< s, time constant of the pressure after the exit
   /// m/s at the exit, or at the end where there is none, as a range table has it: a check of what is typed,
   /// and no part of the launch.
   std::optional<double> expected_velocity;
   /// m, a place along x of the driving band up to which the pressure acts. None: the foremost annulus of full
-  /// radius, which `settle_load` writes here where the pressure acts on more than the rearmost faces.
+  /// radius.
   std::optional<double> obturation;
-  /// kg/m2 of the whole projectile over the area that the pressure drives, with which `muzzle_travel` is
-  /// reached. It follows from the bodies: `settle_load` sets it, and reading a scene calls that.
-  double mass_over_area = 0.0;
-  /// What takes long of a measured curve, built once by `build_curve`. Where the curve was changed since,
-  /// every PressureHistory builds its own.
-  std::shared_ptr<const LoadInBarrel> in_barrel = {};
 };
 
-/// When the shot leaves the barrel, s: as the load states, or when the projectile as one rigid body has
-/// travelled `muzzle_travel`. None where neither is stated, or that far it never comes.
-std::optional<double> exit_time(const Load& load);
-/// When the simulation ends, s: at `duration` where that is stated, else when the launch is over
-/// (load.hpp).
+/// When the simulation ends, s: at `duration` where that is stated, else when the launch is over (load.hpp).
 double end_time(const Load& load);
 /// When published values at the end of a launch are read, s: at the exit where there is one, else at the end.
 double read_time(const Load& load);
@@ -114,8 +102,8 @@ struct Numerics {
   int particles_per_cell = 1;  ///< in each direction
   double time_step_factor = 0.5;  ///< CFL
   double inertial_scaling = 1.0;  ///< s >= 1
-  /// >= 1; steps over those that the cells at rest allow: cells that allow less get the inertia for it. Of a
-  /// scene file that does not say it: plan.hpp.
+  /// >= 1; steps over those that the cells at rest allow: cells that allow less get the inertia for it. A
+  /// scene file that does not state it has usual_selective_inertia.
   double selective_inertia = 1.0;
   double damping_time = 0.0;         ///< s; decay time of the relative velocity, 0 = no damping
   double pic_fraction = 0.0;         ///< share of PIC in the velocity update, 0 = pure FLIP
@@ -273,21 +261,14 @@ double base_area(const Scene& scene);
 
 /// Axial acceleration (m/s2) of the whole projectile as one rigid body under a pressure (Pa) of the chamber.
 double rigid_acceleration(const Scene& scene, double pressure);
-/// How fast (m/s) and how far (m) the load has driven the whole projectile as one rigid body at a time (s).
+/// How fast (m/s) and how far (m) the load has driven the whole projectile as one rigid body at a time (s),
+/// where nothing holds it back.
 struct RigidMotion {
   double velocity = 0, travel = 0, time = 0;
 };
-/// Nothing holds the projectile back.
 RigidMotion rigid_motion(const Scene& scene, double time);
 /// For people: "796 m/s after 5.26 m of travel".
 std::string rigid_motion_text(const Scene& scene, double time);
-/// Sets what of the load follows from the bodies: its mass over area, and the driving band. A program that
-/// states a `muzzle_travel` calls it.
-void settle_load(Scene& scene);
-
-/// Builds the measured curve of a load, if it has one, for all histories of this load and of its copies. The
-/// curve must be valid.
-void build_curve(Load& load);
 
 /// Chamber pressure (Pa) at time t (s); monotone cubic (PCHIP) through a measured curve of at
 /// least two points at increasing times, held constant outside it. Curves of two or three points are joined
@@ -303,26 +284,24 @@ class PressureHistory {
   /// Largest pressure of the whole load as stated, Pa, whatever the end: `load.peak` of the analytic
   /// shape, the largest point of a measured curve before smoothing, in the scale of `at`.
   double stated_peak() const;
-  /// When the shot leaves the barrel, s; nothing where it does not.
-  std::optional<double> exit() const { return std::isfinite(exit_) ? std::optional(exit_) : std::nullopt; }
   /// When the launch is over, s, whatever `Load::duration` says: see scene::launch_end.
   double launch_end() const;
   /// Times from 0 to the end of the simulation, both included, at which the curvature of a measured curve
   /// changes: what it does is seen at these. For the analytic shape only the ends, its peak, and the exit.
   std::vector<double> marks() const;
-  /// The motion of a body of 1 kg/m2 that it drives from rest: until a time (s), or before when its travel is
-  /// `goal` (m).
-  RigidMotion drive(double until, std::optional<double> goal = {}) const;
+  /// The motion of a body of 1 kg/m2 that it drives from rest until a time (s).
+  RigidMotion drive(double until) const;
 
  private:
+  double in_barrel(double time) const;        ///< Pa, as it would go on without the exit
   std::pair<double, double> largest() const;  ///< its time, s, and the largest pressure, Pa
-  bool is_measured() const;
+  double exit() const { return load_.muzzle_exit.value_or(std::numeric_limits<double>::infinity()); }
+  bool is_measured() const { return !load_.curve_time.empty(); }
 
-  std::shared_ptr<const LoadInBarrel> barrel_;             ///< the load as it would go on without the exit
-  std::optional<double> duration_;                         ///< s, as `Load::duration`
-  double exit_decay_ = 0.0;                                ///< s
-  double exit_ = std::numeric_limits<double>::infinity();  ///< s
-  double exit_pressure_ = 0.0, pressure_outside_ = 0.0;    ///< Pa
+  Load load_;
+  std::function<double(double)> curve_;  ///< between its first and its last point; none of an analytic shape
+  double scale_ = 1.0;
+  double exit_pressure_ = 0.0, pressure_outside_ = 0.0;  ///< Pa
 };
 
 }  // namespace launchsafe::scene

@@ -1,4 +1,4 @@
-// SQLite: values and statements.
+// SQLite: values, statements, and tables whose rows are objects.
 #pragma once
 
 #include "launchsafe/math/numbers.hpp"
@@ -7,11 +7,10 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <functional>
 #include <memory>
-#include <unordered_map>
 
 struct sqlite3;
-struct sqlite3_stmt;
 
 namespace launchsafe::store {
 
@@ -19,59 +18,29 @@ namespace launchsafe::store {
 using SqlValue = std::variant<std::monostate, std::int64_t, double, std::string>;
 using SqlRow = std::vector<SqlValue>;
 
-/// A results file that is open. One thread at a time. Every Error is thrown: held (another process writes
-/// it), conflict (it is no results file of this program and format), corrupt (it is damaged), write_failed
-/// (the disk is full, for example), unreadable, failed.
+/// A results file that is open. One thread at a time. Errors: conflict (it is no results file of this program
+/// and format), corrupt (it is damaged), write_failed (the disk is full, for example), unreadable, failed.
 class Database {
  public:
-  /// Opens a file for this process alone, or makes it: the lock ends with the process, however that ends.
-  /// What is no results file is left as it is.
-  static Database open(const std::filesystem::path& path);
-  /// Whether a living process has the file open to write. Throws nothing.
-  static bool is_held(const std::filesystem::path& path);
-  /// An empty one in memory, whose messages name `path`.
-  static Database in_memory(const std::filesystem::path& path);
-  /// A copy of a file in memory as the last commit left it. The file is held for as long as copying takes and
-  /// may be on a disk that cannot be written to.
-  static Database copy_of(const std::filesystem::path& path);
+  /// Opens a results file, or with `writes` makes it where it is missing. A file of another kind is left as
+  /// it is.
+  Database(const std::filesystem::path& path, bool writes);
 
-  /// The rows that a statement gives, with `values` for its question marks. Statements are kept, so that a
-  /// second call is quick.
+  /// The rows that a statement gives, with `values` for its question marks.
   std::vector<SqlRow> rows(const std::string& statement, const SqlRow& values = {});
-  /// The same for a statement that gives none.
-  void run(const std::string& statement, const SqlRow& values = {}) { rows(statement, values); }
-
-  /// Takes the newer rows of `stored_runs` of another file, of which a result beats an attempt without one.
-  void take_rows_of(const std::filesystem::path& other);
-
-  /// Whether changes since the last commit are pending.
-  bool in_transaction() const;
-  /// Takes them back.
-  void roll_back();
+  /// All changes that `make` makes, or none where it throws.
+  void change(const std::function<void()>& make);
 
  private:
   struct Close {
     void operator()(sqlite3* database) const;
   };
-  struct Finalize {
-    void operator()(sqlite3_stmt* statement) const;
-  };
-  using Handle = std::unique_ptr<sqlite3, Close>;
-  using Statement = std::unique_ptr<sqlite3_stmt, Finalize>;
-
-  Database(std::filesystem::path path, Handle handle);
-  static Database connect(const std::filesystem::path& path, int flags);
-  void copy_into(const std::string& schema, const std::filesystem::path& source);
   void check_format();
-  void lock_and_prepare();
-  sqlite3_stmt* prepared(const std::string& statement);
-  /// Runs a statement whose failure is of no consequence.
-  void try_to_run(const char* statement);
   Error error(int code) const;
+  Error other_format() const;
 
   std::filesystem::path path_;
-  Handle handle_;
-  std::unordered_map<std::string, Statement> statements_;
+  std::unique_ptr<sqlite3, Close> handle_;
 };
 
 /// Not a number is nothing, and -0 is 0: SQLite knows neither.
@@ -98,6 +67,46 @@ void from_sql(const SqlValue& stored, Value& value) {
   } else {
     value = static_cast<Value>(std::get<std::int64_t>(stored));
   }
+}
+
+/// A column of a table, and the member of its rows that it holds.
+template <class Member>
+struct SqlColumn {
+  const char* name;
+  Member member;
+};
+template <class Member>
+SqlColumn(const char*, Member) -> SqlColumn<Member>;
+
+/// Makes a table where it is missing. The first of its columns is the key.
+template <class Columns>
+void make_table(Database& database, const char* table, const Columns& columns) {
+  const auto names = std::apply([](const auto&... each) { return std::vector{each.name...}; }, columns);
+  database.rows(fmt::format("CREATE TABLE IF NOT EXISTS {} ({}, PRIMARY KEY ({})) WITHOUT ROWID", table,
+                            fmt::join(names, ", "), names.front()));
+}
+
+/// Puts a row in the place of the one with its key.
+template <class Row, class Columns>
+void put(Database& database, const char* table, const Columns& columns, const Row& row) {
+  const SqlRow values =
+      std::apply([&](const auto&... each) { return SqlRow{to_sql(row.*each.member)...}; }, columns);
+  database.rows(fmt::format("INSERT OR REPLACE INTO {} VALUES ({})", table,
+                            fmt::join(std::vector<const char*>(values.size(), "?"), ", ")),
+                values);
+}
+
+/// All rows, in the order of their keys; none where there is no such table.
+template <class Row, class Columns>
+std::vector<Row> all_rows(Database& database, const char* table, const Columns& columns) {
+  std::vector<Row> found;
+  if (database.rows("SELECT 1 FROM sqlite_schema WHERE name = ?", {std::string(table)}).empty()) return found;
+  for (const SqlRow& values : database.rows(fmt::format("SELECT * FROM {} ORDER BY 1", table))) {
+    std::size_t next = 0;
+    Row& row = found.emplace_back();
+    std::apply([&](const auto&... each) { (from_sql(values.at(next++), row.*each.member), ...); }, columns);
+  }
+  return found;
 }
 
 }  // namespace launchsafe::store

@@ -1,179 +1,80 @@
-// Trees of labelled values in HDF5, written to and read from memory: disk errors never meet the library,
-// where a failed close cannot be undone. `Hdf5Writer` and `Hdf5Reader` have the same member functions, so
-// that one description of a layout serves both. They throw the Error that names the place: failed or corrupt.
+// Trees of values with units in HDF5, written to and read from memory: disk errors never meet the library,
+// where a failed close cannot be undone.
 #pragma once
 
 #include "launchsafe/store/file.hpp"
 
 #include <hdf5.h>
 
-#include <concepts>
+#include <functional>
+#include <type_traits>
 
 namespace launchsafe::store {
 
-/// What a dataset holds. Both become its attributes; units is "1" for pure numbers and "none" for text.
-struct Label {
-  std::string units;
-  std::string description;
-};
-
-/// Rows of a dataset with two dimensions, stored row after row.
-struct Shape {
-  std::size_t rows = 0, columns = 0;
-};
-
-/// An HDF5 identifier, closed at the end of its scope.
-class Hdf5Id {
+/// A file that is written, or read, by the same calls: one description of a layout serves both. `data` stores
+/// a value in a file that is written, and fills it from a file that is read. `name` is a path such as
+/// "trace/time", whose groups are made; `unit` is an attribute, "1" of pure numbers and "none" of text.
+/// Errors name the place: failed (writing), corrupt (reading).
+class Hdf5 {
  public:
-  using Closer = herr_t (*)(hid_t);
+  /// A new file, to be written.
+  Hdf5();
+  /// Opens the bytes of a whole file, to be read; they may be freed afterwards.
+  explicit Hdf5(std::string_view image);
+  ~Hdf5();
+  Hdf5(const Hdf5&) = delete;
+  Hdf5& operator=(const Hdf5&) = delete;
 
-  Hdf5Id() = default;
-  Hdf5Id(hid_t id, Closer closer) : id_(id), closer_(closer) {}
-  Hdf5Id(Hdf5Id&& other) noexcept : id_(std::exchange(other.id_, -1)), closer_(other.closer_) {}
-  Hdf5Id& operator=(Hdf5Id&& other) noexcept {
-    std::swap(id_, other.id_);
-    std::swap(closer_, other.closer_);
-    return *this;
+  bool reading() const { return reading_; }
+  [[noreturn]] void fail(const std::string& what) const;
+
+  /// Whether there is a dataset or group of this name.
+  bool has(const std::string& name) const;
+  /// Number of groups and datasets in a group; 0 without the group.
+  std::size_t size(const std::string& group) const;
+
+  template <class Number>
+  requires std::is_arithmetic_v<Number>
+  void data(const std::string& name, Number& value, const char* unit) {
+    exchange(name, unit, type_of<Number>(), {}, [&](const Extent&) { return &value; });
   }
-  ~Hdf5Id() {
-    if (id_ >= 0) closer_(id_);
+  template <class Number>
+  requires std::is_arithmetic_v<Number>
+  void data(const std::string& name, std::vector<Number>& values, const char* unit) {
+    exchange(name, unit, type_of<Number>(), {values.size()}, [&](const Extent& extent) {
+      if (reading_) values.resize(extent[0]);
+      return values.data();
+    });
   }
+  void data(const std::string& name, std::string& text, const char* unit);
+  void data(const std::string& name, std::vector<std::string>& texts, const char* unit);
 
-  hid_t get() const { return id_; }
-  bool valid() const { return id_ >= 0; }
+  /// Two dimensions, stored row after row. An error when `values` is neither empty nor of this shape.
+  void table(const std::string& name, std::vector<double>& values, std::size_t rows, std::size_t columns,
+             const char* unit);
 
- private:
-  hid_t id_ = -1;
-  Closer closer_ = nullptr;
-};
-
-template <class T>
-concept Hdf5Number =
-    std::same_as<T, double> || std::same_as<T, std::int64_t> || std::same_as<T, std::uint64_t>;
-
-/// The library's type of a number in memory.
-template <Hdf5Number Number>
-hid_t hdf5_type() {
-  if constexpr (std::same_as<Number, double>) return H5T_NATIVE_DOUBLE;
-  if constexpr (std::same_as<Number, std::int64_t>) return H5T_NATIVE_INT64;
-  return H5T_NATIVE_UINT64;
-}
-
-/// An open file, and the groups in it that we are in.
-class Hdf5File {
- public:
-  /// Throws.
-  [[noreturn]] void fail(const std::string& what) const { throw Error{kind_, what}; }
-
- protected:
-  explicit Hdf5File(Error::Kind kind);
-  hid_t here() const { return groups_.empty() ? file_.get() : groups_.back().get(); }
-  /// An identifier of what is called `name` here. Throws where it is none.
-  Hdf5Id checked(hid_t id, Hdf5Id::Closer closer, const std::string& name) const;
-  /// The same for what a function of the library returns.
-  void check(herr_t status, const std::string& name) const;
-  /// Runs `body` inside a group.
-  template <class Body>
-  void inside(Hdf5Id group, Body&& body) {
-    groups_.push_back(std::move(group));
-    body();
-    groups_.pop_back();
-  }
-
-  Hdf5Id file_;
-
- private:
-  Error::Kind kind_;
-  std::vector<Hdf5Id> groups_;
-};
-
-class Hdf5Writer : public Hdf5File {
- public:
-  static constexpr bool reading = false;
-
-  Hdf5Writer();
-
-  /// Runs `body` inside a new group.
-  template <class Body>
-  void group(const std::string& name, const std::string& description, Body&& body) {
-    inside(made(name, description), body);
-  }
-
-  /// A text attribute of the group we are in.
-  void attribute(const std::string& name, const std::string& text);
-
-  template <Hdf5Number Number>
-  void value(const std::string& name, Number value, const Label& label) {
-    put(name, label, hdf5_type<Number>(), {}, &value);
-  }
-  void value(const std::string& name, const std::string& text, const Label& label);
-
-  template <Hdf5Number Number>
-  void array(const std::string& name, const std::vector<Number>& values, const Label& label) {
-    put(name, label, hdf5_type<Number>(), {values.size()}, values.data());
-  }
-  void array(const std::string& name, const std::vector<std::string>& texts, const Label& label);
-
-  /// Two dimensions. An error when `values` is neither empty nor of the size that the shape says.
-  void table(const std::string& name, const std::vector<double>& values, Shape shape, const Label& label);
-
-  /// The file's bytes.
+  /// The bytes of a file that was written.
   std::string finish();
 
  private:
-  Hdf5Id made(const std::string& name, const std::string& description);
-  /// A dataset of this extent in each dimension; a single value has none.
-  void put(const std::string& name, const Label& label, hid_t type, const std::vector<hsize_t>& extent,
-           const void* data);
+  using Extent = std::vector<hsize_t>;  ///< in each dimension; none of a single value
 
-  Hdf5Id group_creation_, dataset_creation_;
-};
-
-class Hdf5Reader : public Hdf5File {
- public:
-  static constexpr bool reading = true;
-
-  /// Opens the bytes of a whole HDF5 file; they may be freed afterwards.
-  explicit Hdf5Reader(std::string_view image);
-
-  template <class Body>
-  void group(const std::string& name, const std::string&, Body&& body) {
-    inside(checked(H5Gopen2(here(), name.c_str(), H5P_DEFAULT), H5Gclose, name), body);
+  template <class Number>
+  static hid_t type_of() {
+    if (std::is_floating_point_v<Number>) return H5T_NATIVE_DOUBLE;
+    if (sizeof(Number) < sizeof(std::int64_t)) return sizeof(Number) == 1 ? H5T_NATIVE_UINT8 : H5T_NATIVE_INT;
+    return std::is_signed_v<Number> ? H5T_NATIVE_INT64 : H5T_NATIVE_UINT64;
   }
+  /// Throws where a function of the library failed; otherwise gives its result.
+  hid_t check(hid_t result, const std::string& name) const;
+  /// Writes or reads a dataset. `place` is called with its extent, the stored one where it is read, and gives
+  /// the place of the values in memory.
+  void exchange(const std::string& name, const char* unit, hid_t type, Extent extent,
+                const std::function<void*(const Extent&)>& place) const;
+  void texts(const std::string& name, std::vector<std::string>& texts, const char* unit, Extent extent) const;
 
-  /// Whether the group we are in holds a dataset or group of this name.
-  bool has(const std::string& name) const;
-  /// Number of groups and datasets in the group we are in.
-  std::size_t size() const;
-
-  template <Hdf5Number Number>
-  void value(const std::string& name, Number& value, const Label& = {}) {
-    read(name, open(name, H5Tget_class(hdf5_type<Number>()), 0), hdf5_type<Number>(), &value);
-  }
-  void value(const std::string& name, std::string& text, const Label& = {});
-
-  template <Hdf5Number Number>
-  void array(const std::string& name, std::vector<Number>& values, const Label& = {}) {
-    const Dataset set = open(name, H5Tget_class(hdf5_type<Number>()), 1);
-    values.assign(set.count, Number{});
-    read(name, set, hdf5_type<Number>(), values.data());
-  }
-  void array(const std::string& name, std::vector<std::string>& texts, const Label& = {});
-
-  /// An error when the dataset is neither empty nor of this shape.
-  void table(const std::string& name, std::vector<double>& values, Shape shape, const Label& = {});
-
- private:
-  struct Dataset {
-    Hdf5Id id, type;
-    std::vector<hsize_t> extent;
-    std::size_t count = 1;
-  };
-
-  /// A dataset of the wanted type class with `rank` dimensions.
-  Dataset open(const std::string& name, H5T_class_t type_class, std::size_t rank) const;
-  void read(const std::string& name, const Dataset& set, hid_t type, void* data) const;
-  std::vector<std::string> texts_of(const std::string& name, std::size_t rank) const;
+  const bool reading_;
+  hid_t file_ = -1;  ///< closing it closes all that is open in it
 };
 
 }  // namespace launchsafe::store

@@ -175,6 +175,9 @@ Judgement judge(const CaseRow& of_case, const GapRow& gap);
 /// m, the largest judged gap that with all smaller ones is SAFE; NaN where there is none.
 double largest_safe_gap(const std::vector<GapRow>& gaps);
 
+/// The cause that shortens the critical gap of a case most; none where none does.
+std::optional<Cause> costliest(const CaseRow& of_case);
+
 /// Why a verdict is what it is, for people: the rule with its numbers, and the reasons of whoever accepts.
 std::string reason_text(const CaseRow& of_case, const GapRow& gap);
 /// "shell-yields, because ...; calibre, because ..." of all that is accepted; empty where nothing is.

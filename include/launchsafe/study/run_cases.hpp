@@ -15,8 +15,6 @@ namespace launchsafe::study {
 struct Shard {
   int index = 1, count = 1;
   bool whole() const { return count == 1; }
-  /// "2-of-4"; empty for the whole.
-  std::string part() const;
 };
 
 /// "2/4", with 1 <= index <= count <= 10000; nothing for any other text.

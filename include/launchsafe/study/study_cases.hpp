@@ -52,7 +52,7 @@ template <class Row>
 void read_rows(const toml::table& root, const std::string& name, const std::vector<scene::Key<Row>>& keys,
                const std::string& file, StudyFile& study, std::vector<Row>& rows) {
   const std::string allowed = "tables, each written [[" + name + "]]";
-  for (auto& [row, places] : scene::read_tables(root, name, keys, file, allowed).or_throw()) {
+  for (auto& [row, places] : scene::read_tables(root, name, keys, file, allowed)) {
     for (const auto& [key, place] : places)
       study.places[name + "." + std::to_string(rows.size()) + "." + key] = place;
     rows.push_back(std::move(row));
@@ -133,6 +133,11 @@ void make_factorial(StudyFile& study);
 
 /// Refuses, at `key`, more cases than a study may have; `what` says how they come about.
 void check_count(const StudyFile& study, const std::string& key, double count, const std::string& what);
+
+/// The key of a scene that its gaps stand under. Cases share gaps, unless a study varies this key: then each
+/// has a gap of its own.
+inline constexpr const char* gap_key = "gap.thickness";
+bool varies_gap(const Study& study);
 
 /// The gaps of a study that judges some, where it has none itself: those of its scene.
 void settle_gaps(StudyFile& study);
