@@ -73,9 +73,17 @@ const Column largest_safe_gap{"largest_safe_gap", "largest SAFE gap", significan
 const Quantities<PlacedCase> status_quantities{
     {for_programs(quantity::status), [](const PlacedCase& row) { return status_of(*row.row); }}};
 
+/// Of many cases the reasons of whoever accepts are the same in most rows: the file has them.
+Quantities<PlacedCase> own_quantities(bool in_detail) {
+  auto quantities = of_part<PlacedCase>(report::case_quantities(), &PlacedCase::row);
+  for (auto& each : quantities)
+    if (each.name == "accepted" && !in_detail) each = for_programs(each);
+  return quantities;
+}
+
 Quantities<PlacedCase> placed_case_quantities(const Study& study, bool in_detail) {
   return joined<PlacedCase>({place_quantities(study, in_detail),
-                             of_part<PlacedCase>(report::case_quantities(), &PlacedCase::row),
+                             own_quantities(in_detail),
                              model_quantities(study),
                              {{largest_safe_gap, &PlacedCase::row, &CaseRow::gaps, study::largest_safe_gap}},
                              in_detail ? Quantities<PlacedCase>{} : status_quantities,

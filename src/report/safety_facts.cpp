@@ -221,6 +221,14 @@ Row largest_safe_in_all(const Row& cases) {
   return all && !smallest.is_null() ? smallest[key] : Row();
 }
 
+/// "496 MPa, 30 µm, 1 mm, 336 K permits none"
+std::string cases_without_safe(const Row& cases) {
+  std::vector<std::string> names;
+  for (const Row& each : cases)
+    if (each["largest_safe_gap_cm"].is_null()) names.push_back(text_of(each, "case"));
+  return fmt::format("{} {} none", fmt::join(names, "; "), names.size() == 1 ? "permits" : "permit");
+}
+
 /// The critical gap of one case, and what makes it uncertain.
 void add_shown_case(const StudyEvidence& main, const Row& row, SafetyPage& page) {
   const std::string name = text_of(row, "case");
@@ -300,6 +308,7 @@ void add_launch(const SafetyEvidence& evidence, SafetyPage& page) {
   page.tables["verdicts"] = verdict_table(verdicts, several);
   std::vector<Column> columns = keys::described(case_quantities());
   columns.insert(columns.begin(), quantity::case_name);
+  columns.emplace_back("largest_safe_gap", "largest SAFE gap", significant(6, centimetre));
   page.tables["cases"] = table_in("Cases", columns, cases);
   Row& facts = page.facts;
   facts["answer"].update({{"largest_safe_gap_cm", safe}, {"cases", cases}});
@@ -307,7 +316,9 @@ void add_launch(const SafetyEvidence& evidence, SafetyPage& page) {
   const bool is_accepted =
       std::ranges::any_of(cases, [](const Row& each) { return !text_of(each, "accepted").empty(); });
   if (safe.is_null())
-    facts["not_safe"] = {{"reason", several || verdicts.empty() ? "" : text_of(verdicts.front(), "reason")}};
+    facts["not_safe"] = {{"reason", several            ? cases_without_safe(cases)
+                                    : verdicts.empty() ? ""
+                                                       : text_of(verdicts.front(), "reason")}};
   else
     facts["safe"] = {{"gap", safe}, {"accepted", is_accepted}};
   const Row& smallest = smallest_in(cases, "critical_gap_cm");
