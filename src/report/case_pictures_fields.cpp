@@ -303,11 +303,35 @@ std::vector<Picture> field_pictures(const DrawnCase& drawn) {
   return pictures;
 }
 
+/// The particles of a snapshot with all fields, for other programs.
+Quantities<std::size_t> particle_quantities(const DrawnCase& drawn, const run::Snapshot& shot) {
+  Quantities<std::size_t> quantities{
+      {"body", "body", keys::text(), "Body of the particle.",
+       [&](std::size_t i) { return drawn.scene.bodies[static_cast<std::size_t>(shot.body[i])].name; }},
+      {"x", "x", keys::significant(6, millimetre), "Of the particle at present.", at_sample(shot.x)},
+      {"r", "r", keys::significant(6, millimetre), "Likewise.", at_sample(shot.r)}};
+  for (const Field& field : run::snapshot_fields()) {
+    const std::string name(field.name), meaning(field.meaning);
+    const std::vector<double>& all = values_of(shot, field);
+    quantities.push_back({{name, name, form_of(field), meaning}, [&all](std::size_t i) {
+                            return all.empty() ? std::nullopt : std::optional(all[i]);
+                          }});
+  }
+  return quantities;
+}
+
+std::vector<ReportTable> field_tables(const DrawnCase& drawn) {
+  return study::of_each(chosen_snapshots(drawn), [&](const ShownSnapshot& each) {
+    return ReportTable{sample_table(particle_quantities(drawn, *each.snapshot), each.snapshot->x.size()),
+                       "field" + name_of(each) + ".csv"};
+  });
+}
+
 }  // namespace
 
 const PictureKind fields_kind{"fields",
                               "pressure, von Mises stress, crack radius, burnt share and temperature with "
                               "the skin's at every snapshot, where they vary by 1 % at least",
-                              lacks_fields, field_pictures};
+                              lacks_fields, field_pictures, field_tables};
 
 }  // namespace launchsafe::report::detail

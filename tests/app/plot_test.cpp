@@ -90,7 +90,9 @@ TEST_F(Plotted, WritesNumbersAsTablesWithoutGnuplot) {
   before_start([] { ::setenv("PATH", "/nowhere", 1); });
   const Outcome outcome = run({"plot", "shell.h5", "-o", "out", "--csv"});
   EXPECT_EQ(outcome.code, 0) << outcome.err;
-  EXPECT_EQ(outcome.out, "out/pressure.csv\nout/histories_0cm.csv\nout/histories_0.01cm.csv\n");
+  EXPECT_EQ(outcome.out,
+            "out/pressure.csv\nout/field_0.02ms.csv\nout/field_0.05ms.csv\nout/histories_0cm.csv\n"
+            "out/histories_0.01cm.csv\n");
   EXPECT_TRUE(read("out/pressure.csv").starts_with("time_ms,chamber_MPa,bottom_MPa\r\n0,"));
   const auto object = nlohmann::json::parse(
       run({"plot", "shell.h5", "-o", "out", "--csv", "--json", "--what", "pressure"}).out);
