@@ -2,7 +2,9 @@
 // of it says, which walkthrough_test.cpp holds against the program.
 #include "store/temporary_folder.hpp"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
 
 #include <cstdlib>
 #include <filesystem>
@@ -155,6 +157,60 @@ TEST(Documents, TheReadmesVerdictsAreThoseOfTheMainJob) {
     })) << row;
   }
   EXPECT_EQ(rows, 6U);
+}
+
+/// The rows of a CSV file by the names of its columns; no cell of these has a comma within quotes but the
+/// case.
+std::vector<std::map<std::string, std::string>> rows_of(const fs::path& file) {
+  static const std::regex cell(R"re((?:^|,)(?:"([^"]*)"|([^,]*)))re");
+  const auto cells_of = [](const std::string& line) {
+    std::vector<std::string> cells;
+    for (std::sregex_iterator each(line.begin(), line.end(), cell), end; each != end; ++each)
+      cells.push_back((*each)[1].matched ? (*each)[1].str() : (*each)[2].str());
+    return cells;
+  };
+  std::ifstream stream(file);
+  std::string line;
+  std::getline(stream, line);
+  const std::vector<std::string> names = cells_of(line);
+  std::vector<std::map<std::string, std::string>> rows;
+  while (std::getline(stream, line)) {
+    const std::vector<std::string> cells = cells_of(line);
+    auto& row = rows.emplace_back();
+    for (std::size_t i = 0; i < std::min(names.size(), cells.size()); ++i) row[names[i]] = cells[i];
+  }
+  return rows;
+}
+
+/// cm, of the case of a report that begins with this name.
+double critical_gap_in(const std::string& report, const std::string& name) {
+  for (auto& row : rows_of(source / "reports" / report / "critical_gaps.csv"))
+    if (row["case"].starts_with(name)) return std::stod(row["critical_gap_cm"]);
+  return std::numeric_limits<double>::quiet_NaN();
+}
+
+// The main job, the row of the sweep at its pressure, the firing of the envelope at its pressure and
+// temperature, and what the README says of them are one critical gap.
+TEST(Documents, OneCriticalGapStandsInReadmeReportSweepAndSafetyReport) {
+  const std::string name = "496 MPa, 30 µm, 1 mm", readme = page_of(source / "README.md");
+  const double gap = critical_gap_in("critical_gap_155mm", name);
+  const auto in_digits = [](double length) { return fmt::format("{:.4f}", length); };
+  EXPECT_NE(readme.find("The critical gap is " + in_digits(gap) + " cm ("), std::string::npos);
+  EXPECT_NE(readme.find("| 496 MPa, 300 K, the launch of the main job | " + in_digits(gap) + " |"),
+            std::string::npos);
+  EXPECT_EQ(in_digits(critical_gap_in("sweep", "496 MPa, 30 µm")), in_digits(gap));
+  const auto safety = nlohmann::json::parse(page_of(source / "reports" / "safety_155mm" / "report.json"));
+  std::size_t firings = 0;
+  for (const auto& firing : safety["answer"]["cases"]) {
+    const std::string label = firing["case"];
+    if (label == name + ", 300 K") EXPECT_NEAR(firing["critical_gap_cm"], gap, 1e-6);
+    const std::regex row(label.substr(0, label.find(" MPa")) + " MPa, " +
+                         label.substr(label.rfind(", ") + 2) + ".* \\| " +
+                         in_digits(firing["critical_gap_cm"]) + " \\|");
+    EXPECT_TRUE(std::regex_search(readme, row)) << label;
+    ++firings;
+  }
+  EXPECT_EQ(firings, 6u);
 }
 
 // A dirty tree is one that nobody else can build.

@@ -247,7 +247,7 @@ TEST_F(SafetyReport, AllowsNoGapWhereOneOfSeveralCasesIgnitesAtEvery) {
 }
 
 TEST_F(SafetyReport, ASweepByItselfAllowsNoGap) {
-  const auto json = nlohmann::json::parse(file_of({shipped("sweep_pressure_defect")}, "report.json"));
+  const auto json = nlohmann::json::parse(file_of({shipped("sweep")}, "report.json"));
   EXPECT_TRUE(json["answer"]["largest_safe_gap_cm"].is_null());
   EXPECT_TRUE(json["answer"]["cases"].empty());
 }
