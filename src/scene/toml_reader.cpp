@@ -137,6 +137,21 @@ std::string section_of(const std::string& name) {
   return dot == std::string::npos ? std::string{} : name.substr(0, dot);
 }
 
+/// Throws that of a dotted key of so many parts that its nested tables would exhaust the stack of whoever
+/// reads or removes them. Of scenes and studies a key has one or two points; a sentence has fewer than this.
+void check_points(std::string_view text, const std::string& file) {
+  constexpr std::size_t most_points = 200;
+  std::size_t points = 0;  // since the last character that ends a key or a number of a list
+  int line = 1;
+  for (const char letter : text) {
+    line += letter == '\n' ? 1 : 0;
+    if (std::string_view("[{=,\n").find(letter) != std::string_view::npos) points = 0;
+    if (letter != '.' || ++points < most_points) continue;
+    throw error_at({file, line, 1}, {}, fmt::format("{} points without a comma", points),
+                   "a key of tables that are nested less deep, or shorter sentences");
+  }
+}
+
 }  // namespace
 
 std::string found_text(const toml::node& node) {
@@ -172,6 +187,7 @@ InputError error_at(const Place& place, std::string_view key, std::string_view f
 }
 
 toml::table parse_toml(std::string_view text, const std::string& file) {
+  check_points(text, file);
   try {
     return toml::parse(text, file);
   } catch (const toml::parse_error& error) {

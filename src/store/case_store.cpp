@@ -111,7 +111,8 @@ bool is_locked(const std::filesystem::path& folder) {
 std::filesystem::path results_file(const std::filesystem::path& folder) { return folder / "study.db"; }
 
 std::optional<StudyStatus> status_in(const std::filesystem::path& folder) {
-  if (!std::filesystem::exists(results_file(folder))) return std::nullopt;
+  std::error_code none;  // a name that is no file's
+  if (!std::filesystem::exists(results_file(folder), none)) return std::nullopt;
   const bool alive = is_locked(folder);  // before the file is read: a writer that ends in between has ended
   Database database(results_file(folder), false);
   const auto rows = all_rows<StudyStatus>(database, status_table, status_columns);

@@ -59,6 +59,7 @@ INSTANTIATE_TEST_SUITE_P(
     ::testing::Values(HostileFile{"NestedArrays",
                                   "a = " + repeated("[", deep) + repeated("]", deep),
                                   {"nested value depth of 16"}},
+                      HostileFile{"DottedKey", repeated("a.", deep) + "b = 1", {"200 points"}},
                       HostileFile{"Binary",
                                   std::string("\x7f"
                                               "ELF\0\0\1",
@@ -79,6 +80,19 @@ TEST_F(HostileFileProgram, WhatIsNoRegularFileIsRefusedAtOnce) {
     write("scene.toml", with(tiny_scene, "base = \"0 Pa\"\npeak = \"50 MPa\"", "curve = \"" + file + "\""));
     expect_refused({"run", "scene.toml", "-o", "out"}, {kind});
   }
+}
+
+// Longer than the names of files may be: that was an internal error, exit code 70.
+TEST_F(HostileFileProgram, NamesThatNoFileMayHaveAreRefused) {
+  const std::string name(5000, 'a');
+  for (const std::vector<std::string>& arguments : {std::vector<std::string>{"run", name},
+                                                    {"study", name, "-o", "out"},
+                                                    {"explain", name},
+                                                    {"status", name},
+                                                    {"import-curve", name},
+                                                    {"plot", name},
+                                                    {"report", name, "-o", "out"}})
+    EXPECT_EQ(run(arguments).code, 2) << arguments.front();
 }
 
 class CurveProgram : public Program {};
